@@ -1,0 +1,80 @@
+// An interface: what is held, what holds it, and the three verbs of a step.
+//
+//   search(x, v)    who can touch
+//   evaluate(...)   adds forces and nodal contact stiffness into the host's spans; returns energies, resultants, counts
+//   commit(dt)      friction and energy history move on
+//
+// The host turns the summed nodal stiffness of its elements and of all interfaces into one time step:
+// h <= s sqrt(2 m / K) for every node keeps central differences stable (numerics.md 2.3).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "abut/contact/options.hpp"
+#include "abut/contact/surface.hpp"
+#include "abut/types.hpp"
+#include "abut/vec3.hpp"
+
+namespace abut::contact {
+
+class InterfaceModel;  // internal
+
+/// What changes about a surface: spans of #F values, copied when set.
+struct SurfaceState {
+  std::span<const double> stiffness;         ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
+  std::span<const double> thickness;         ///< shell thickness per facet; empty: none
+  std::span<const std::uint8_t> active;      ///< 0: eroded facet; empty: all active
+};
+
+/// Host arrays at t^n. Lengths #N of the host.
+struct HostState {
+  std::span<const Vec3> x;                 ///< positions at t^n
+  std::span<const Vec3> v;                 ///< velocities at n - 1/2
+  std::span<const double> mass;            ///< nodal masses (TYPE7 damping); may be empty otherwise
+  double time = 0.0;                       ///< t^n
+  double dt = 0.0;                         ///< h_-, the step that ended at t^n (0 in the first cycle)
+  double dt_bar_old = 0.0;                 ///< (h_- + the one before)/2 (reference impulses, incremental friction)
+};
+
+class Interface {
+ public:
+  /// TYPE3: two passes; neither surface is main (T2, T10). @throws std::invalid_argument when a node lies on both (T6).
+  static Interface two_surfaces(Surface first, Surface second, const Options& options);
+  /// TYPE5: the nodes are held against the surface, one pass. `node_stiffness` #nodes: their own stiffness
+  /// (sum of a quarter per facet around them); used in series unless rules.one_pass_half_stiffness.
+  static Interface nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface,
+                                    const Options& options);
+
+  ~Interface();
+  Interface(Interface&&) noexcept;
+  Interface& operator=(Interface&&) noexcept;
+
+  /// @param side 0 first, 1 second (the only one of nodes_to_surface is 1)
+  void set_surface(int side, const SurfaceState& state);
+
+  void search(const HostState& host);
+  /// @param force     #N by 3: contact forces are added
+  /// @param stiffness #N: contact stiffness is added (numerics.md 2.3 convention: h <= sqrt(2 m / K))
+  StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness);
+  void commit(double dt);
+
+  /// Normal and tangential contact force on host nodes are added (output); tributary area of its surfaces' nodes too.
+  void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const;
+  void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const;
+  /// Held nodes in contact now (host indices, each once): boundary-condition release (IBC) asks for it.
+  [[nodiscard]] std::span<const Index> nodes_in_contact() const;
+
+  /// Explicit history (friction anchors, held pairs, energies, previous forces): a host can checkpoint it.
+  [[nodiscard]] std::vector<std::byte> history() const;
+  void restore(std::span<const std::byte> history);  ///< @throws std::invalid_argument on a foreign or damaged blob
+
+ private:
+  explicit Interface(std::unique_ptr<InterfaceModel> model);
+  std::unique_ptr<InterfaceModel> model_;
+};
+
+}  // namespace abut::contact

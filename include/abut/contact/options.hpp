@@ -1,0 +1,73 @@
+// Options and results of an interface: value types.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "abut/types.hpp"
+#include "abut/vec3.hpp"
+
+namespace abut::contact {
+
+/// Normal law (T24): F = K Gap/(Gap - P) P, or F = K P. With Gap = 0 both are the constant law.
+enum class Law { stiffening, constant };
+
+/// What acts between a node and the borders of facets: closest point on faces, edges and corners, or the plain rule
+/// (one normal per facet, hard tolerance beyond its edges).
+enum class Edges { closest, plain };
+
+/// Rules on which abut's standard and reference profiles differ (numerics.md 7.9).
+struct Rules {
+  Law law = Law::stiffening;
+  Edges edges = Edges::closest;
+  /// false: two surfaces, one spring each, in series (T13). true: TYPE5 takes half of the facet's stiffness.
+  bool one_pass_half_stiffness = false;
+  /// true: a triangle's third node counts twice in its nodal stiffness (K/4 each), else K/3 per node.
+  bool triangle_third_node_twice = false;
+  /// true: no friction in the first cycle of a contact unless it exists at the start; slip test on the full vector.
+  bool reference_friction = false;
+  /// true: closed-form projection by area ratios (exact for parallelograms), else Newton.
+  bool area_ratio_projection = false;
+  /// true: first and last force of a contact are scaled so that switching inside a step makes no energy.
+  bool switch_correction = true;
+  /// true: no limit on how deep a node may lie behind a facet.
+  bool unlimited_depth = false;
+
+  [[nodiscard]] static Rules standard() { return {}; }
+  [[nodiscard]] static Rules reference() {
+    return {Law::constant, Edges::plain, true, true, true, true, false, true};
+  }
+};
+
+/// Options of a one-sided interface (TYPE3: two passes, TYPE5: one).
+struct Options {
+  double stiffness_scale = 0.2;  ///< s (T14); must be > 0
+  double friction = 0.0;         ///< Coulomb coefficient (T19); >= 0
+  double tangential_ratio = 0.1; ///< K_t / K_n (T21)
+  double gap = 0.0;              ///< length (T25..T28); >= 0
+  double birth = 0.0;            ///< time from which the interface acts
+  double death = 1e30;           ///< time after which it does not
+  double shear_limit = 1e30;     ///< Ptlim: largest friction stress; > 0
+  double depth_limit = 0.0;      ///< how far behind a facet a node is still held when first met; 0: from facet size
+  Rules rules;
+};
+
+/// What an interface says after evaluate(). Energies are cumulative since the start, in the host's unit of work.
+struct StepResult {
+  double elastic = 0.0;         ///< CE: stored now in normal springs and elastic stick
+  double friction_work = 0.0;   ///< FW: dissipated by slip, never decreases
+  double damping_work = 0.0;    ///< DW
+  double made = 0.0;            ///< CX = discrete work of the contact forces + CE + FW + DW
+  Vec3 normal_force;            ///< on the second (main) surface
+  Vec3 tangential_force;
+  Index in_contact = 0;         ///< held nodes with P > 0, both passes
+  double largest_penetration = 0.0;
+  double largest_approach = 0.0;  ///< normal approach in the last step, in units of gap (gap > 0)
+  /// Upper limit of the coming step from kinematics (gap - P against closing speed); 1e30: none.
+  double kinematic_step = 1e30;
+  Index kinematic_node = no_index;  ///< host node that gives it
+};
+
+}  // namespace abut::contact

@@ -1,0 +1,44 @@
+// The two rule sets of one code: named choices, handed to whoever needs them; no global switch, no branches by name.
+#pragma once
+
+#include <string_view>
+
+namespace abut {
+
+/// Every choice on which `standard` (theory and good numerics) and `reference` (the reference program's rule, so that
+/// decks can be compared; docs/guide/profiles.md lists each with its reason) differ.
+struct Profile {
+  /// Element steps: a bound of the element's exact largest eigenvalue, or the reference program's length over speed.
+  enum class ElementStep { bound, reference };
+  /// Step of the assembled system: nodal sum of element and contact stiffness, or the smallest element step
+  /// (contact of TYPE3/5 left out).
+  enum class SystemStep { nodal, reference };
+  /// Rotational hourglass viscosity of the one-point shell: dimensionally homogeneous, or the reference's constants.
+  enum class RotationalHourglass { homogeneous, reference };
+  /// Energy increment of hourglass forces: trapezoidal, or with the end-of-step force.
+  enum class HourglassEnergy { trapezoidal, end_of_step };
+  /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
+  enum class SolidSoundSpeed { exact, literal };
+
+  ElementStep element_step = ElementStep::bound;
+  SystemStep system_step = SystemStep::nodal;
+  RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
+  HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
+  SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
+  /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
+  bool reference_contact = false;
+
+  [[nodiscard]] static constexpr Profile standard() { return {}; }
+  [[nodiscard]] static constexpr Profile reference() {
+    Profile p;
+    p.element_step = ElementStep::reference;
+    p.system_step = SystemStep::reference;
+    p.rotational_hourglass = RotationalHourglass::reference;
+    p.hourglass_energy = HourglassEnergy::end_of_step;
+    p.solid_sound_speed = SolidSoundSpeed::literal;
+    p.reference_contact = true;
+    return p;
+  }
+};
+
+}  // namespace abut

@@ -1,0 +1,76 @@
+// Outputs as the cycle sees them: it hands a snapshot to sinks and knows nothing of files.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "abut/contact/interface.hpp"
+#include "abut/types.hpp"
+#include "abut/vec3.hpp"
+#include "elements/group.hpp"
+#include "model/model.hpp"
+#include "state/state.hpp"
+
+namespace abut::cycle {
+
+/// Who gives the time step.
+struct StepController {
+  enum class Kind { none, shell, sh3n, brick, tetra, node, interface, fixed } kind = Kind::none;
+  Id id = 0;
+};
+
+struct PartResult { double ie = 0.0, he = 0.0; elements::PartSums sums; Index eroded = 0; };
+/// Forces are those of this cycle; impulses their time integrals (numerics.md 7.4.2, 6.1.5).
+struct InterfaceResult {
+  Vec3 normal_force, tangential_force;      ///< on the second (main) surface
+  Vec3 normal_impulse, tangential_impulse;
+  double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;
+  Index in_contact = 0;
+};
+struct WallResult { Vec3 normal_force, tangential_force, normal_impulse, tangential_impulse; };
+struct BodyResult { Vec3 force_impulse, moment_impulse, force, moment, rotation; };
+struct SectionResult { Vec3 normal_force, tangential_force, moment; Vec3 normal_impulse, tangential_impulse, moment_impulse; };
+
+/// Everything that an output may read at t^n (numerics.md 1.2 step 26). Views are valid during the call only.
+struct Snapshot {
+  const model::Model* model = nullptr;
+  const state::State* state = nullptr;
+  const state::Balance* balance = nullptr;
+  std::span<const std::unique_ptr<elements::Group>> groups;
+  std::span<const PartResult> parts;             ///< per model part; `sums` valid when history_due
+  std::span<const InterfaceResult> interfaces;   ///< per model interface
+  std::span<const Vec3> contact_normal;          ///< #N by 3, nodal normal contact force of all interfaces
+  std::span<const Vec3> contact_tangential;      ///< #N by 3
+  std::span<const double> contact_area;          ///< #N, tributary area of contact surfaces (0: not on one)
+  std::span<const WallResult> walls;
+  std::span<const BodyResult> bodies;
+  std::span<const SectionResult> sections;
+  StepController controller;
+  bool history_due = false;    ///< a time-history row belongs to this cycle
+  bool animation_due = false;  ///< an animation state belongs to this cycle
+  bool listing_due = false;    ///< a line of the cycle listing belongs to this cycle
+  std::uint64_t state_hash = 0;  ///< valid when hash_due
+  bool hash_due = false;
+};
+
+/// Why and how a run ended.
+struct Outcome {
+  enum class Kind { finished, stopped, interrupted, failed } kind = Kind::finished;
+  std::string message;
+  std::int64_t cycles = 0;
+  double time = 0.0;
+};
+
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  virtual void begin(const Snapshot& first) = 0;  ///< before the first cycle's output, once
+  virtual void cycle(const Snapshot& now) = 0;    ///< every cycle, at step 26
+  virtual void end(const Outcome& outcome) = 0;   ///< once, also after a failure
+};
+
+}  // namespace abut::cycle

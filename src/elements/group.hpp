@@ -1,0 +1,143 @@
+// One group of elements: same family, same part (hence same law and property), in blocks of 8.
+//
+// A step of a group is gather (node arrays -> block), compute (kernel over Pack), scatter (block -> slots). Slots are
+// private to an element, so blocks run in parallel; `Assembly` sums them per node in the order of element ids.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "abut/types.hpp"
+#include "abut/vec3.hpp"
+#include "core/profile.hpp"
+#include "model/model.hpp"
+#include "parallel/thread_pool.hpp"
+
+namespace abut::elements {
+
+inline constexpr int lanes = 8;  ///< elements in a block, for every instruction set
+
+enum class Family { shell_q4, shell_c0, brick8, tetra4, inert };
+
+/// What a kernel reads (all #N by 3, work units).
+struct StepInput {
+  const Vec3* x = nullptr;  ///< positions at t^n
+  const Vec3* v = nullptr;  ///< velocities at n - 1/2
+  const Vec3* w = nullptr;  ///< angular velocities at n - 1/2 (shells)
+  double time = 0.0;        ///< t^n
+  double dt = 0.0;          ///< h_-, 0 in the first cycle
+};
+
+/// What a group says after a step.
+struct GroupResult {
+  double step = 1e30;               ///< smallest scaled element step s_e * dt_e of the group's active elements
+  Index step_element = no_index;    ///< element (group-local) that gives it
+  double internal_energy = 0.0;     ///< of the group, without hourglass
+  double hourglass_energy = 0.0;
+  Index removed = 0;                ///< elements deleted in this cycle
+  Index bad_element = no_index;     ///< first element with a non-finite result or a negative volume, group-local
+};
+
+/// Values of one element for output (numerics.md 8.5, 8.6). Unused members stay 0.
+struct ElementOutput {
+  double off = 1.0;                        ///< activity: 1 active, 0 deleted
+  double internal_energy = 0.0, membrane_energy = 0.0, bending_energy = 0.0, hourglass_energy = 0.0;
+  double plastic_min = 0.0, plastic_max = 0.0;
+  double density = 0.0, volume = 0.0, thickness = 0.0, pressure = 0.0, von_mises = 0.0, bulk_viscosity = 0.0;
+  std::array<double, 6> stress{};          ///< mean Cauchy stress xx yy zz xy yz zx, global axes
+  std::array<double, 8> resultants{};      ///< shells: F1 F2 F12 Q1 Q2 M1 M2 M12 (numerics.md 8.5), element frame
+};
+
+/// Sums over a part for the time history (numerics.md 8.3); `v` at the entry of the cycle.
+struct PartSums {
+  double kinetic_energy = 0.0, rotational_energy = 0.0, mass = 0.0;
+  Vec3 momentum;
+};
+
+/// Layout of a group's slots: entry of node k (of nodes_per_element), component c (of components), element e = 8 b + l:
+///   offset + ((b * nodes_per_element + k) * components + c) * 8 + l.
+/// Components: solids fx fy fz K; shells fx fy fz K mx my mz Kr. f, m: internal force and moment *of the element on
+/// nothing*, i.e. the vector that is subtracted from the nodal force; K, Kr: nodal stiffness of numerics.md 2.2.
+struct SlotLayout {
+  std::size_t offset = 0;
+  int nodes_per_element = 0;
+  int components = 0;
+  Index blocks = 0;
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(blocks) * static_cast<std::size_t>(nodes_per_element * components * lanes);
+  }
+  [[nodiscard]] std::size_t at(Index element, int node, int component) const {
+    const auto b = static_cast<std::size_t>(element / lanes);
+    const auto l = static_cast<std::size_t>(element % lanes);
+    return offset + ((b * static_cast<std::size_t>(nodes_per_element) + static_cast<std::size_t>(node)) *
+                         static_cast<std::size_t>(components) + static_cast<std::size_t>(component)) * lanes + l;
+  }
+};
+
+class Group {
+ public:
+  virtual ~Group() = default;
+
+  [[nodiscard]] virtual Family family() const = 0;
+  [[nodiscard]] Index part() const { return part_; }
+  /// Number of elements (without the padding of the last block).
+  [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
+  /// Group-local element -> index in the model's table of that kind. Sorted by id.
+  [[nodiscard]] std::span<const Index> elements() const { return elements_; }
+  /// Nodes of a group-local element (nodes_per_element of them; degenerate bricks repeat).
+  [[nodiscard]] virtual std::span<const Index> nodes(Index element) const = 0;
+  [[nodiscard]] virtual model::ElementKind kind() const = 0;
+
+  [[nodiscard]] const SlotLayout& layout() const { return layout_; }
+  void set_slot_offset(std::size_t offset) { layout_.offset = offset; }
+
+  /// Mass and rotational inertia of each node slot (numerics.md 1.4, 1.5), written to components 0 (mass) and, where the
+  /// family has rotations, 1 (inertia) of the slots. Called once, before the first step.
+  virtual void initial_masses(std::span<double> slots) const = 0;
+
+  /// One step: strains over `in.dt`, stresses to t^n, internal forces into the group's slots. Elements that are off or
+  /// rigid write zeros. Deterministic for any number of threads.
+  virtual GroupResult step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) = 0;
+
+  /// Elements wholly inside a rigid body: no force, no step, no part sums (numerics.md 6.2.1).
+  virtual void set_rigid(std::span<const std::uint8_t> rigid) = 0;
+
+  [[nodiscard]] virtual ElementOutput output(Index element) const = 0;
+  [[nodiscard]] virtual bool active(Index element) const = 0;
+  /// Current thickness of a shell (contact updates use it); 0 for solids.
+  [[nodiscard]] virtual double thickness(Index element) const = 0;
+  [[nodiscard]] virtual PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const = 0;
+  [[nodiscard]] virtual double element_mass(Index element) const = 0;
+  [[nodiscard]] virtual double element_energy(Index element) const = 0;  ///< internal + hourglass
+
+  /// Every array that carries history from step to step, for the state hash and the checkpoint.
+  [[nodiscard]] virtual std::vector<std::span<double>> history() = 0;
+
+ protected:
+  Index part_ = no_index;
+  std::vector<Index> elements_;
+  SlotLayout layout_;
+};
+
+/// What a group is made of.
+struct GroupInput {
+  const model::Model* model = nullptr;
+  Index part = no_index;
+  std::vector<Index> elements;  ///< indices into the model's table of that kind, sorted by id
+  Profile profile;
+  double step_scale = 0.9;      ///< s_e of the Engine deck for this family
+  double step_minimum = 0.0;    ///< Tmin with `step_action`
+  model::StepControl::Action step_action = model::StepControl::Action::none;
+};
+
+[[nodiscard]] std::unique_ptr<Group> make_shell_q4(const GroupInput& in);
+[[nodiscard]] std::unique_ptr<Group> make_shell_c0(const GroupInput& in);
+[[nodiscard]] std::unique_ptr<Group> make_brick8(const GroupInput& in);
+[[nodiscard]] std::unique_ptr<Group> make_tetra4(const GroupInput& in);
+
+}  // namespace abut::elements

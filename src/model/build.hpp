@@ -1,0 +1,18 @@
+// cards -> Model. The only door from the deck's text to the mechanics.
+#pragma once
+
+#include <filesystem>
+
+#include "core/diagnostic.hpp"
+#include "deck/deck.hpp"
+#include "model/model.hpp"
+
+namespace abut::model {
+
+/// Interprets and validates a deck. All faults are added to `diagnostics`; the model is usable only if it has no errors.
+[[nodiscard]] Model build(const deck::DeckPair& deck, Diagnostics& diagnostics);
+
+/// Reads and builds; throws InputError with every finding when there is an error. Warnings and notes are added to `diagnostics`.
+[[nodiscard]] Model load(const std::filesystem::path& starter, Diagnostics& diagnostics);
+
+}  // namespace abut::model

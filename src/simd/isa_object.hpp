@@ -1,0 +1,13 @@
+// Included by the sources that are built once per instruction set (*.isa.cpp); the build defines ABUT_ISA (the namespace,
+// e.g. avx2) and ABUT_ISA_WIDTH (doubles per register). Such sources include no standard library header.
+#pragma once
+
+#include "simd/pack.hpp"
+
+#if !defined(ABUT_ISA) || !defined(ABUT_ISA_WIDTH)
+#error "build this file with abut_isa_sources() (cmake/AbutStage.cmake)"
+#endif
+
+namespace abut::simd::ABUT_ISA {
+using Real = Pack<ABUT_ISA_WIDTH>;
+}
