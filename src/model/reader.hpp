@@ -1,0 +1,111 @@
+// What the readers of single keywords share: units, cards of one block with typed fields, tables of ids.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "core/diagnostic.hpp"
+#include "deck/deck.hpp"
+#include "deck/fields.hpp"
+#include "model/model.hpp"
+
+namespace abut::model {
+
+/// Exponents of mass, length and time of a dimensional value (deck-format.md, conventions).
+struct Dimension {
+  int mass = 0, length = 0, time = 0;
+};
+namespace dim {
+inline constexpr Dimension none{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, force{1, 1, -2}, pressure{1, -1, -2},
+    velocity{0, 1, -1}, acceleration{0, 1, -2}, density{1, -3, 0}, stiffness{1, 0, -2}, energy{1, 2, -2}, rate{0, 0, -1},
+    rate2{0, 0, -2}, inertia{1, 2, 0}, moment{1, 2, -2}, mass_per_area{1, -2, 0};
+}  // namespace dim
+
+/// Ids to indices, one table per family (A.7). Filled as the families are read; a set id appears in every table it may serve.
+struct Tables {
+  using Map = std::unordered_map<Id, Index>;
+  Map nodes, shells, sh3ns, bricks, tetras, parts, materials, properties, functions, skews, sensors;
+  Map node_groups, surfaces, interfaces, rigid_bodies, rigid_walls, sections;
+  Map shell_groups, sh3n_groups, brick_groups, part_groups;  ///< into Context::element_groups / part_groups
+};
+
+/// Members of an element or part group, sorted indices.
+struct IndexGroup {
+  Id id = 0;
+  std::vector<Index> members;
+};
+
+/// State of one model build.
+struct Context {
+  const deck::Deck* deck = nullptr;
+  Model* model = nullptr;
+  Diagnostics* diagnostics = nullptr;
+  Tables tables;
+  std::vector<IndexGroup> shell_groups, sh3n_groups, brick_groups, part_groups;
+  Units input;                             ///< units of the deck's values; work units are model->units
+  std::unordered_map<Id, Units> local;     ///< /UNIT/id
+
+  /// Factor from the deck's value to the work unit, with the local unit system `unit_id` (0: input units of /BEGIN).
+  [[nodiscard]] double factor(Dimension d, Id unit_id) const;
+};
+
+/// Walks over the cards of one block and reads typed fields; faults become diagnostics, never exceptions.
+/// Columns are those of the 10/20-column layout; for versions <= 44 they are mapped to 8/16 columns here.
+class BlockReader {
+ public:
+  /// @param has_title the keyword is followed by a title card (from version 51 on)
+  /// @param id_word   which word of the keyword line holds the id (e.g. 2 for /INTER/TYPE3/1); -1: the keyword has no id
+  BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title);
+
+  [[nodiscard]] Id id() const { return id_; }
+  [[nodiscard]] const std::string& title() const { return title_; }
+  [[nodiscard]] std::string keyword() const;  ///< "/INTER/TYPE3/1"
+
+  /// Moves to the next data card. false: the card is missing; its fields then read as blank (A.5).
+  bool next_card();
+  [[nodiscard]] bool more() const;  ///< another data card follows
+
+  [[nodiscard]] double real(deck::Columns c, std::string_view field, Dimension d = dim::none);
+  [[nodiscard]] Id integer(deck::Columns c, std::string_view field);
+  [[nodiscard]] std::string_view text(deck::Columns c) const;
+  [[nodiscard]] bool flag(int column, std::string_view field);  ///< one-character 0/1/blank
+  [[nodiscard]] bool blank(deck::Columns c) const { return text(c).empty(); }
+
+  /// Ids of a list, 10 per line, to the end of the block (blank fields skipped). Stops with a warning at a line that does not parse.
+  [[nodiscard]] std::vector<Id> id_list(std::string_view field);
+
+  /// Index of `id` in `table`; reports an error ("no /FUNCT with id 7") and returns no_index when absent. 0 gives no_index silently.
+  [[nodiscard]] Index resolve(const Tables::Map& table, Id id, std::string_view what, deck::Columns c, std::string_view field);
+
+  void error(std::string_view code, deck::Columns c, std::string_view field, std::string message);
+  void warning(std::string_view code, deck::Columns c, std::string_view field, std::string message);
+  [[nodiscard]] Place place() const;                                            ///< of the block
+  [[nodiscard]] Place place(deck::Columns c, std::string_view field) const;      ///< of a field of the current card
+  Context& context() { return *context_; }
+
+ private:
+  Context* context_;
+  const deck::Block* block_;
+  Id id_ = 0;
+  Id unit_id_ = 0;
+  std::string title_;
+  std::size_t next_ = 0;
+  const deck::Card* card_ = nullptr;
+};
+
+// Readers by group of keywords. Each takes the blocks it knows (returns true) and leaves the others (false).
+// `pass` order is fixed by build.cpp: everything that others refer to comes first (A.7: order of blocks is free).
+void read_control(Context& c);       ///< /BEGIN units version title, /UNIT, /DEF_*, /ANALY, /SHFRA, /RANDOM, /IOFLAG ...
+void read_mesh(Context& c);          ///< /NODE, /PART, elements, /PROP, /MAT, /FUNCT, /SKEW
+void read_sets(Context& c);          ///< /GRNOD, /GRSHEL, ..., /BOX, /SUBSET, /SURF, /SET
+void read_sensors(Context& c);       ///< /SENSOR
+void read_conditions(Context& c);    ///< /BCS, /INIVEL, /IMP*, /CLOAD, /PLOAD, /GRAV, /ADMAS, /RBODY, /RWALL
+void read_interfaces(Context& c);    ///< /INTER
+void read_outputs(Context& c);       ///< /TH, /SECT, /ACCEL
+void read_engine(Context& c, const deck::Deck& engine);  ///< Engine deck -> Model::controls
+void check_keywords(Context& c);     ///< keywords nobody took: refused when they can change physics, else listed as skipped
+void validate(Context& c);           ///< what can only be judged with everything read (shared nodes, zero areas, masses ...)
+
+}  // namespace abut::model
