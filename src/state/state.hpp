@@ -19,7 +19,8 @@ struct StepTimes {
   double h_bar_old = 0.0;    ///< of the previous cycle, 0 in cycle 0
 };
 
-/// Nodal arrays, all #N (by 3), index = model node index.
+/// Nodal arrays, all #N (by 3), index = model node index. x, v and w carry one entry more, so that kernels may load four
+/// doubles at any node.
 struct State {
   StepTimes times;
   std::vector<Vec3> x;       ///< position t^n
@@ -35,7 +36,10 @@ struct State {
   std::vector<Vec3> f_contact;               ///< all interfaces
   std::vector<double> mass, inertia;         ///< current (scaling included)
   std::vector<double> stiffness, rotational_stiffness;  ///< nodal sums of the cycle
-  [[nodiscard]] Index size() const { return static_cast<Index>(x.size()); }
+
+  /// Zero state of n nodes.
+  [[nodiscard]] static State zeros(Index n);
+  [[nodiscard]] Index size() const { return static_cast<Index>(mass.size()); }
 };
 
 /// Terms of the balance at t^n (columns GLOBAL/... of the time history).

@@ -1,0 +1,189 @@
+// Energies, impulses, outputs and checks of a cycle.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "cycle/cycle.hpp"
+
+namespace abut::cycle {
+
+namespace {
+
+/// Share of the largest energy term that may be made or lost before a run is stopped as wrong, when the deck sets none.
+constexpr double default_error_limit = 0.5;
+
+class Fnv {
+ public:
+  void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3ULL + (word >> 29); }
+  void add(double d) { add(std::bit_cast<std::uint64_t>(d)); }
+  void add(const Vec3& v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace
+
+void Cycle::erode() {
+  // Activity of every element by kind and model index.
+  std::array<std::vector<std::uint8_t>, 5> alive;
+  alive[1].assign(model_.shells.id.size(), 1);
+  alive[2].assign(model_.sh3ns.id.size(), 1);
+  alive[3].assign(model_.bricks.id.size(), 1);
+  alive[4].assign(model_.tetras.id.size(), 1);
+  for (const std::unique_ptr<elements::Group>& g : groups_) {
+    for (Index e = 0; e < g->size(); ++e) {
+      alive[static_cast<std::size_t>(g->kind())][static_cast<std::size_t>(g->elements()[static_cast<std::size_t>(e)])] = g->active(e) ? 1 : 0;
+    }
+  }
+  init::update_erosion(model_, interfaces_, [&alive](const model::ElementRef& e) {
+    return alive[static_cast<std::size_t>(e.kind)][static_cast<std::size_t>(e.index)] != 0;
+  });
+  eroded_ = false;
+}
+
+void Cycle::release_boundary_conditions() {
+  std::fill(released_.begin(), released_.end(), std::uint8_t{0});
+  for (const init::RunInterface& i : interfaces_) {
+    const auto& ibc = model_.interfaces[static_cast<std::size_t>(i.model_index)].ibc;
+    if (!ibc[0] && !ibc[1] && !ibc[2]) continue;
+    for (const Index node : i.contact.nodes_in_contact()) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (ibc[k]) released_[3 * static_cast<std::size_t>(node) + k] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < state_.mass.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (released_[3 * i + static_cast<std::size_t>(k)] != 0) {
+        boundary_.release(static_cast<Index>(i), k);
+      } else if (!options_.profile.reference_contact) {
+        boundary_.restore(static_cast<Index>(i), k);  // the reference never gives it back
+      }
+    }
+  }
+}
+
+void Cycle::book_interfaces() {
+  // The reference counts impulses with the half-step sum of the cycle before (numerics.md 7.4.2).
+  const double h = options_.profile.reference_contact ? state_.times.h_bar_old : state_.times.h_bar;
+  for (InterfaceResult& r : interface_results_) {
+    r.normal_impulse += h * r.normal_force;
+    r.tangential_impulse += h * r.tangential_force;
+  }
+}
+
+void Cycle::close_balance() {
+  state::Balance& b = balance_;
+  const double ledger = ledger_->close(state_, pool_);
+  KineticSums kinetic = ledger_->kinetic(state_, pool_);
+  const constraints::KineticCorrection body = bodies_.kinetic_correction(state_);
+  b.ke = kinetic.translation + body.translation;
+  b.ker = kinetic.rotation + body.rotation;
+  b.momentum = kinetic.momentum + body.momentum;
+  b.mass = kinetic.mass + body.mass;
+  b.added_mass = time_step_->added_mass();
+  b.ie = b.he = b.ce = b.fw = b.dw = b.cx = 0.0;
+  for (const PartResult& p : parts_) {
+    b.ie += p.ie;
+    b.he += p.he;
+  }
+  for (const InterfaceResult& r : interface_results_) {
+    b.ce += r.ce;
+    b.fw += r.fw;
+    b.dw += r.dw;
+    b.cx += r.cx;
+  }
+  b.xe = -scaled_energy_;
+  const double sum = b.ie + b.he + b.ke + b.ker + b.ce + b.fw + b.dw + b.xe - b.extw;
+  if (state_.times.cycle == 0) b.initial = sum;
+  for (const double term : {b.ie, b.he, b.ke, b.ker, b.ce, b.fw, b.dw, b.extw, b.initial}) b.largest = std::max(b.largest, std::abs(term));
+  b.err = b.largest > 0.0 ? (sum - b.initial) / b.largest : 0.0;
+  b.ledger = b.largest > 0.0 ? ledger / b.largest : 0.0;
+  worst_error_ = std::max(worst_error_, std::abs(b.err));
+  if (b.largest > 0.0) worst_contact_error_ = std::max(worst_contact_error_, std::abs(b.cx) / b.largest);
+}
+
+void Cycle::check_finite() const {
+  const double sum = balance_.ie + balance_.he + balance_.ke + balance_.ker + balance_.extw + balance_.ce;
+  const std::string when = " at cycle " + std::to_string(state_.times.cycle) + ", time " + std::to_string(state_.times.t);
+  if (!std::isfinite(sum)) {
+    for (std::size_t i = 0; i < state_.mass.size(); ++i) {
+      const Vec3 v = state_.v[i] + state_.a[i];
+      const Vec3 w = state_.w[i] + state_.alpha[i];
+      if (std::isfinite(v.x + v.y + v.z + w.x + w.y + w.z)) continue;
+      throw RunError("node " + std::to_string(model_.node_id[i]) + " is the first with a motion that is not finite" + when);
+    }
+    throw RunError("an energy is not finite" + when);
+  }
+  const double asked = model_.controls.stop_energy_error;
+  const double limit = asked > 0.0 ? asked : default_error_limit;
+  if (std::abs(balance_.err) <= limit) return;
+  std::size_t fastest = 0;
+  for (std::size_t i = 0; i < state_.mass.size(); ++i) {
+    if (squared_norm(state_.v[i]) > squared_norm(state_.v[fastest])) fastest = i;
+  }
+  throw RunError("energy error of " + std::to_string(100.0 * balance_.err) + " % of the largest term is beyond the limit of " +
+                 std::to_string(100.0 * limit) + " %" + when + "; the fastest node is " + std::to_string(model_.node_id[fastest]) +
+                 " (speed " + std::to_string(norm(state_.v[fastest])) + ")");
+}
+
+Snapshot Cycle::snapshot() {
+  if (animation_due_) {
+    std::fill(contact_normal_.begin(), contact_normal_.end(), Vec3{});
+    std::fill(contact_tangential_.begin(), contact_tangential_.end(), Vec3{});
+    std::fill(contact_area_.begin(), contact_area_.end(), 0.0);
+    for (const init::RunInterface& i : interfaces_) {
+      i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
+      i.contact.add_nodal_area({state_.x.data(), state_.mass.size()}, contact_area_);
+    }
+  }
+  Snapshot s;
+  s.model = &model_;
+  s.state = &state_;
+  s.balance = &balance_;
+  s.groups = groups_;
+  s.parts = parts_;
+  s.interfaces = interface_results_;
+  s.contact_normal = contact_normal_;
+  s.contact_tangential = contact_tangential_;
+  s.contact_area = contact_area_;
+  s.walls = walls_.results();
+  s.bodies = bodies_.results();
+  s.sections = sections_.results();
+  s.controller = controller_;
+  s.history_due = history_due_;
+  s.animation_due = animation_due_;
+  s.listing_due = listing_due_;
+  s.hash_due = options_.hash_every > 0 && state_.times.cycle % options_.hash_every == 0;
+  if (s.hash_due) s.state_hash = hash();
+  return s;
+}
+
+std::uint64_t Cycle::hash() {
+  Fnv h;
+  h.add(state_.times.t);
+  h.add(state_.times.h_minus);
+  for (std::size_t i = 0; i < state_.mass.size(); ++i) {
+    h.add(state_.x[i]);
+    h.add(state_.v[i]);
+    h.add(state_.w[i]);
+    h.add(state_.mass[i]);
+  }
+  for (const std::unique_ptr<elements::Group>& g : groups_) {
+    for (const std::span<double> array : g->history()) {
+      for (const double d : array) h.add(d);
+    }
+  }
+  for (const init::RunInterface& i : interfaces_) {
+    for (const std::byte byte : i.contact.history()) h.add(static_cast<std::uint64_t>(byte));
+  }
+  return h.value();
+}
+
+}  // namespace abut::cycle

@@ -1,0 +1,185 @@
+#include "cycle/cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::cycle {
+
+/// Adds the wall-clock time of a scope to a phase.
+class Cycle::Timer {
+ public:
+  Timer(Cycle& cycle, Phase phase) : seconds_(cycle.seconds_[phase]), start_(std::chrono::steady_clock::now()) {}
+  ~Timer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Timer(const Timer&) = delete;
+  Timer& operator=(const Timer&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+// The numbers are the steps of numerics.md 1.2.
+void Cycle::advance(Sink& sink) {
+  StepLimits limits;
+  decide_outputs();
+  ledger_->enter(state_);
+  axes_.update(state_);                     //  1
+  clear_forces();                           //  2
+  loads_.apply(state_);                     //  3
+  internal_forces(limits);                  //  5, 8, 10
+  contact_forces(limits);                   //  4, 6, 7
+  total_forces();
+  {
+    const Timer timer(*this, p_constraints);
+    sections_.gather(state_, groups_, slots_);  // 11
+    bodies_.gather(state_);
+    walls_.add_reaction(state_);                // 12
+    scaled_energy_ += time_step_->scale_masses(state_);  // 13
+    controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
+    balance_.extw += loads_.book_work(state_);  // 15
+    accelerate();                               // 16
+    gravities_.apply(state_);                   // 17
+    balance_.extw += gravities_.book_work(state_);
+    boundary_.apply(state_);                    // 18
+    imposed_.apply(state_);                     // 20
+    balance_.extw += imposed_.book_work(state_);
+    walls_.apply(state_);                       // 21
+    balance_.extw += walls_.work();
+    boundary_.apply(state_);                    // 22
+    bodies_.scatter(state_);                    // 23
+    book_interfaces();
+    close_balance();                            // 25
+  }
+  {
+    const Timer timer(*this, p_output);         // 26
+    const Snapshot now = snapshot();
+    if (!begun_) sink.begin(now);
+    begun_ = true;
+    sink.cycle(now);
+  }
+  check_finite();
+  integrate();                                  // 27, 28, 29
+}
+
+void Cycle::decide_outputs() {
+  const double t = state_.times.t;
+  const model::Controls& c = model_.controls;
+  history_due_ = t >= next_history_;
+  if (history_due_) next_history_ = std::min(c.t_end, std::max(t, next_history_ + c.history_interval));
+  animation_due_ = t >= next_animation_;
+  if (animation_due_) next_animation_ = std::max(t, next_animation_ + c.animation_interval);
+  listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
+}
+
+void Cycle::clear_forces() {
+  std::fill(state_.f_external.begin(), state_.f_external.end(), Vec3{});
+  std::fill(state_.m_external.begin(), state_.m_external.end(), Vec3{});
+  std::fill(state_.f_contact.begin(), state_.f_contact.end(), Vec3{});
+  std::fill(contact_stiffness_.begin(), contact_stiffness_.end(), 0.0);
+}
+
+void Cycle::internal_forces(StepLimits& limits) {
+  {
+    const Timer timer(*this, p_elements);
+    const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus};
+    for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
+    for (const std::unique_ptr<elements::Group>& g : groups_) {
+      const elements::GroupResult r = g->step(in, slots_, pool_);
+      if (r.bad_element != no_index) {
+        throw RunError("element " + std::to_string(element_id(*g, r.bad_element)) + " of part " +
+                       std::to_string(model_.parts[static_cast<std::size_t>(g->part())].id) +
+                       " has a non-finite result or a negative volume at cycle " + std::to_string(state_.times.cycle));
+      }
+      PartResult& part = parts_[static_cast<std::size_t>(g->part())];
+      part.ie += r.internal_energy;
+      part.he += r.hourglass_energy;
+      part.eroded += r.removed;
+      if (r.removed > 0) eroded_ = true;
+      if (history_due_) {
+        const elements::PartSums sums = g->part_sums(state_.v, state_.w);
+        part.sums.kinetic_energy += sums.kinetic_energy;
+        part.sums.rotational_energy += sums.rotational_energy;
+        part.sums.mass += sums.mass;
+        part.sums.momentum += sums.momentum;
+      }
+      if (r.step < limits.element) {
+        using Kind = StepController::Kind;
+        static constexpr Kind kinds[] = {Kind::none, Kind::shell, Kind::sh3n, Kind::brick, Kind::tetra};
+        limits.element = r.step;
+        limits.element_controller = {kinds[static_cast<int>(g->kind())], element_id(*g, r.step_element)};
+      }
+    }
+  }
+  const Timer timer(*this, p_assembly);
+  assembly_.sum(slots_, {state_.f_internal, state_.m_internal, state_.stiffness, state_.rotational_stiffness}, pool_);
+}
+
+void Cycle::contact_forces(StepLimits& limits) {
+  if (eroded_) erode();
+  const state::StepTimes& t = state_.times;
+  const contact::HostState host{{state_.x.data(), state_.mass.size()}, {state_.v.data(), state_.mass.size()}, state_.mass,
+                                t.t, t.h_minus, t.h_bar_old};
+  {
+    const Timer timer(*this, p_search);
+    for (init::RunInterface& i : interfaces_) i.contact.search(host);
+  }
+  const Timer timer(*this, p_contact);
+  for (init::RunInterface& i : interfaces_) {
+    const contact::StepResult r = i.contact.evaluate(host, state_.f_contact, contact_stiffness_);
+    InterfaceResult& out = interface_results_[static_cast<std::size_t>(i.model_index)];
+    out.normal_force = r.normal_force;
+    out.tangential_force = r.tangential_force;
+    out.ce = r.elastic;
+    out.fw = r.friction_work;
+    out.dw = r.damping_work;
+    out.cx = r.made;
+    out.in_contact = r.in_contact;
+    if (r.kinematic_step < limits.interface_step) {
+      limits.interface_step = r.kinematic_step;
+      limits.interface_controller = {StepController::Kind::interface, model_.interfaces[static_cast<std::size_t>(i.model_index)].id};
+    }
+  }
+  if (releases_) release_boundary_conditions();
+}
+
+void Cycle::total_forces() {
+  pool_.for_ranges(state_.mass.size(), 2048, [this](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      state_.f[i] = state_.f_external[i] - state_.f_internal[i] + state_.f_contact[i];
+      state_.m[i] = state_.m_external[i] - state_.m_internal[i];
+      state_.stiffness[i] += contact_stiffness_[i];
+    }
+  });
+}
+
+void Cycle::accelerate() {
+  pool_.for_ranges(state_.mass.size(), 2048, [this](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      state_.a[i] = state_.mass[i] > 0.0 ? state_.f[i] / state_.mass[i] : Vec3{};
+      state_.alpha[i] = state_.inertia[i] > 0.0 ? state_.m[i] / state_.inertia[i] : Vec3{};
+    }
+  });
+}
+
+void Cycle::integrate() {
+  const Timer timer(*this, p_integrate);
+  state::StepTimes& t = state_.times;
+  const double h_bar = t.h_bar;
+  const double h = t.h_plus;
+  pool_.for_ranges(state_.mass.size(), 2048, [this, h_bar, h](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      state_.v[i] += h_bar * state_.a[i];
+      state_.w[i] += h_bar * state_.alpha[i];
+      const Vec3 step = h * state_.v[i];
+      state_.x[i] += step;
+      state_.u[i] += step;
+    }
+  });
+  for (init::RunInterface& i : interfaces_) i.contact.commit(h);
+  t.t += h;
+  t.h_minus = h;
+  t.h_bar_old = h_bar;
+  ++t.cycle;
+}
+
+}  // namespace abut::cycle

@@ -1,0 +1,109 @@
+// One cycle of central differences, in the order of numerics.md 1.2.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "constraints/boundary_conditions.hpp"
+#include "constraints/curves.hpp"
+#include "constraints/axes.hpp"
+#include "constraints/gravities.hpp"
+#include "constraints/imposed_motions.hpp"
+#include "constraints/loads.hpp"
+#include "constraints/rigid_bodies.hpp"
+#include "constraints/rigid_walls.hpp"
+#include "constraints/sections.hpp"
+#include "cycle/ledger.hpp"
+#include "cycle/run.hpp"
+#include "cycle/sink.hpp"
+#include "cycle/time_step.hpp"
+#include "init/contact_setup.hpp"
+#include "init/start.hpp"
+
+namespace abut::cycle {
+
+class Cycle {
+ public:
+  Cycle(const model::Model& model, const RunOptions& options);
+
+  /// Forces at t^n, step, constraints, balance, output, integration to t^(n+1).
+  /// @throws RunError when a result is not finite or an error limit of the deck is exceeded
+  void advance(Sink& sink);
+
+  /// The run is over when t > t_end (numerics.md 2.4).
+  [[nodiscard]] bool finished() const { return state_.times.t > model_.controls.t_end; }
+  [[nodiscard]] const state::State& state() const { return state_; }
+  [[nodiscard]] const state::Balance& balance() const { return balance_; }
+  [[nodiscard]] const StepController& controller() const { return controller_; }
+  [[nodiscard]] std::vector<PhaseTimes> phases() const;
+  [[nodiscard]] double element_count() const;
+  [[nodiscard]] double worst_error() const { return worst_error_; }
+  [[nodiscard]] double worst_contact_error() const { return worst_contact_error_; }
+  /// Hash over every bit of the state that influences the future.
+  [[nodiscard]] std::uint64_t hash();
+
+ private:
+  enum Phase { p_elements, p_assembly, p_search, p_contact, p_constraints, p_integrate, p_output, phase_count };
+  class Timer;
+
+  void decide_outputs();
+  void clear_forces();
+  void internal_forces(StepLimits& limits);
+  void contact_forces(StepLimits& limits);
+  void erode();
+  void total_forces();
+  void accelerate();
+  void release_boundary_conditions();
+  void book_interfaces();
+  void close_balance();
+  void integrate();
+  void check_finite() const;
+  [[nodiscard]] Snapshot snapshot();
+  [[nodiscard]] Id element_id(const elements::Group& group, Index element) const;
+
+  const model::Model& model_;
+  RunOptions options_;
+  parallel::ThreadPool pool_;
+  std::vector<std::unique_ptr<elements::Group>> groups_;
+  elements::Assembly assembly_;
+  state::State state_;
+  std::vector<double> slots_;
+
+  constraints::Curves curves_;
+  constraints::Axes axes_;
+  constraints::Loads loads_;
+  constraints::Gravities gravities_;
+  constraints::BoundaryConditions boundary_;
+  constraints::ImposedMotions imposed_;
+  constraints::RigidWalls walls_;
+  constraints::RigidBodies bodies_;
+  constraints::Sections sections_;
+
+  std::vector<init::RunInterface> interfaces_;
+  std::vector<double> contact_stiffness_;      // #N
+  std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
+  std::vector<double> contact_area_;
+  std::vector<std::uint8_t> released_;         // #N by 3: boundary condition lifted by IBC now
+  bool releases_ = false;                      // some interface asks for IBC
+
+  std::unique_ptr<TimeStep> time_step_;
+  std::unique_ptr<Ledger> ledger_;
+  state::Balance balance_;
+  StepController controller_;
+  double next_history_ = 0.0, next_animation_ = 0.0;
+  bool history_due_ = false, animation_due_ = false, listing_due_ = false;
+  bool begun_ = false;
+  bool eroded_ = false;
+  double scaled_energy_ = 0.0;
+  double worst_error_ = 0.0, worst_contact_error_ = 0.0;
+  std::vector<PartResult> parts_;
+  std::vector<InterfaceResult> interface_results_;
+  std::vector<BodyResult> body_results_;
+  std::array<double, phase_count> seconds_{};
+};
+
+}  // namespace abut::cycle

@@ -1,0 +1,47 @@
+// A run from a model to its end.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abut/contact/options.hpp"
+#include "core/profile.hpp"
+#include "cycle/sink.hpp"
+#include "model/model.hpp"
+
+namespace abut::cycle {
+
+struct RunOptions {
+  int threads = 1;
+  Profile profile;
+  std::optional<contact::Law> interface_law;   ///< overrides the profile's law for every interface
+  int hash_every = 0;                          ///< cycles between state hashes, 0 = none
+  const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler: the run ends cleanly
+};
+
+/// Wall-clock seconds per phase, for the manifest and --timing.
+struct PhaseTimes {
+  std::string name;
+  double seconds = 0.0;
+};
+
+struct RunReport {
+  Outcome outcome;
+  std::vector<PhaseTimes> phases;
+  double element_cycles = 0.0;     ///< elements times cycles
+  double worst_error = 0.0;        ///< largest |ERR|
+  double worst_contact_error = 0.0;  ///< largest |CX| over the largest energy term
+  std::uint64_t final_hash = 0;
+};
+
+/// Runs to the end of the deck, an interrupt or a failure; `sink` sees every cycle and is always ended.
+/// @throws nothing for a run that fails (Outcome::failed says why); RunError from a sink passes through after end()
+[[nodiscard]] RunReport run(const model::Model& model, const RunOptions& options, Sink& sink);
+
+/// First step of the model and what controls it, in one sentence (`abut check`).
+[[nodiscard]] std::string describe_first_step(const model::Model& model, const RunOptions& options);
+
+}  // namespace abut::cycle

@@ -1,0 +1,101 @@
+// Construction of a Cycle: everything that happens once.
+#include "cycle/cycle.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace abut::cycle {
+
+namespace {
+
+bool has_two_sided_interface(const model::Model& model) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                     [](const model::Interface& i) { return std::holds_alternative<model::InterfaceType7>(i.type); });
+}
+
+}  // namespace
+
+Cycle::Cycle(const model::Model& model, const RunOptions& options)
+    : model_(model),
+      options_(options),
+      pool_(options.threads),
+      groups_(init::make_groups(model, options.profile)),
+      assembly_(model.node_count(), model, groups_),
+      state_(init::make_state(model, groups_, assembly_)),
+      slots_(assembly_.slot_count(), 0.0),
+      curves_(model),
+      axes_(model),
+      loads_(model, curves_, axes_),
+      gravities_(model, curves_, axes_),
+      boundary_(model, axes_),
+      imposed_(model, curves_, axes_),
+      walls_(model),
+      bodies_(model),
+      sections_(model) {
+  const auto n = static_cast<std::size_t>(model.node_count());
+  contact_stiffness_.assign(n, 0.0);
+  contact_normal_.resize(n);
+  contact_tangential_.resize(n);
+  contact_area_.assign(n, 0.0);
+  parts_.resize(model.parts.size());
+  interface_results_.resize(model.interfaces.size());
+
+  walls_.initialise(state_);
+  bodies_.initialise(state_);
+  interfaces_ = init::make_interfaces(model, options.profile, options.interface_law, state_);
+
+  for (const std::unique_ptr<elements::Group>& g : groups_) {
+    std::vector<std::uint8_t> rigid(static_cast<std::size_t>(g->size()), 0);
+    for (Index e = 0; e < g->size(); ++e) rigid[static_cast<std::size_t>(e)] = bodies_.contains(g->nodes(e)) ? 1 : 0;
+    if (std::find(rigid.begin(), rigid.end(), 1) != rigid.end()) g->set_rigid(rigid);
+  }
+
+  std::vector<std::uint8_t> counted(n, 1);
+  std::vector<std::uint8_t> free_translation(n, 1);
+  std::vector<std::uint8_t> free_rotation(n, 1);
+  for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
+    const model::RigidBody& body = model.rigid_bodies[b];
+    if (body.active) counted[static_cast<std::size_t>(body.main)] = 0;
+  }
+  for (const model::Interface& i : model.interfaces) releases_ = releases_ || i.ibc[0] || i.ibc[1] || i.ibc[2];
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto node = static_cast<Index>(i);
+    // A boundary condition that contact may lift leaves the node free.
+    if (!releases_ && boundary_.fixed(node, 0) && boundary_.fixed(node, 1) && boundary_.fixed(node, 2)) free_translation[i] = 0;
+    if (boundary_.fixed(node, 3) && boundary_.fixed(node, 4) && boundary_.fixed(node, 5)) free_rotation[i] = 0;
+  }
+  released_.assign(releases_ ? 3 * n : 0, 0);
+  time_step_ = std::make_unique<TimeStep>(model, options.profile, has_two_sided_interface(model), std::move(free_translation),
+                                          std::move(free_rotation));
+  ledger_ = std::make_unique<Ledger>(std::move(counted));
+  next_animation_ = model.controls.animation_start;
+}
+
+double Cycle::element_count() const {
+  double count = 0.0;
+  for (const std::unique_ptr<elements::Group>& g : groups_) count += g->size();
+  return count;
+}
+
+Id Cycle::element_id(const elements::Group& group, Index element) const {
+  if (element == no_index) return 0;
+  const auto i = static_cast<std::size_t>(group.elements()[static_cast<std::size_t>(element)]);
+  switch (group.kind()) {
+    case model::ElementKind::shell4: return model_.shells.id[i];
+    case model::ElementKind::shell3: return model_.sh3ns.id[i];
+    case model::ElementKind::brick: return model_.bricks.id[i];
+    case model::ElementKind::tetra: return model_.tetras.id[i];
+    case model::ElementKind::none: break;
+  }
+  return 0;
+}
+
+std::vector<PhaseTimes> Cycle::phases() const {
+  static constexpr const char* names[phase_count] = {"elements",    "assembly",  "contact search", "contact force",
+                                                     "constraints", "integrate", "output"};
+  std::vector<PhaseTimes> out;
+  for (int p = 0; p < phase_count; ++p) out.push_back({names[p], seconds_[static_cast<std::size_t>(p)]});
+  return out;
+}
+
+}  // namespace abut::cycle

@@ -1,0 +1,121 @@
+#include "cycle/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "parallel/ordered_sum.hpp"
+
+namespace abut::cycle {
+
+namespace {
+/// Numerics.md 2.3: added mass brings the node a hair above the wanted step.
+constexpr double scaling_margin = 1.00001;
+}  // namespace
+
+TimeStep::Smallest& TimeStep::Smallest::operator+=(const Smallest& b) {
+  if (b.step < step) *this = b;
+  return *this;
+}
+
+TimeStep::TimeStep(const model::Model& model, const Profile& profile, bool has_two_sided_interface,
+                   std::vector<std::uint8_t> free_translation, std::vector<std::uint8_t> free_rotation)
+    : model_(model),
+      profile_(profile),
+      two_sided_(has_two_sided_interface),
+      free_translation_(std::move(free_translation)),
+      free_rotation_(std::move(free_rotation)) {
+  const model::Controls& c = model.controls;
+  if (c.nodal_step) {
+    nodal_scale_ = c.nodal_scale;
+  } else {
+    nodal_scale_ = 1e30;
+    if (model.shells.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.shell.scale);
+    if (model.sh3ns.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.sh3n.scale);
+    if (model.bricks.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.brick.scale);
+    if (model.tetras.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.tetra.scale);
+    if (nodal_scale_ > 1e29) nodal_scale_ = 0.9;
+    if (c.contact_scale_given) nodal_scale_ = std::min(nodal_scale_, c.contact_scale);
+  }
+  if (c.mass_scaling) {
+    scaled_.assign(static_cast<std::size_t>(model.node_count()), c.mass_scaling_nodes.empty() ? 1 : 0);
+    for (const Index n : c.mass_scaling_nodes) scaled_[static_cast<std::size_t>(n)] = 1;
+  }
+}
+
+TimeStep::Smallest TimeStep::nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool) {
+  // All nodes are free for the reference; only those that can move give a true limit.
+  const bool all = profile_.system_step == Profile::SystemStep::reference;
+  return parallel::ordered_sum(s.mass.size(), leaves_, pool, [&](std::size_t begin, std::size_t end) {
+    Smallest smallest;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (s.stiffness[i] > 0.0 && s.mass[i] > 0.0 && (all || free_translation_[i] != 0)) {
+        const double h2 = 2.0 * s.mass[i] / s.stiffness[i];
+        if (h2 < smallest.step) smallest = {h2, static_cast<Index>(i), false};
+      }
+      if (rotations && s.rotational_stiffness[i] > 0.0 && s.inertia[i] > 0.0 && (all || free_rotation_[i] != 0)) {
+        const double h2 = 2.0 * s.inertia[i] / s.rotational_stiffness[i];
+        if (h2 < smallest.step) smallest = {h2, static_cast<Index>(i), true};
+      }
+    }
+    return smallest;
+  });
+}
+
+double TimeStep::scale_masses(state::State& s) {
+  if (scaled_.empty() || model_.controls.nodal_minimum <= 0.0) return 0.0;
+  const double wanted = model_.controls.nodal_minimum / nodal_scale_;
+  const double half_square = 0.5 * wanted * wanted;
+  double energy = 0.0;
+  for (std::size_t i = 0; i < s.mass.size(); ++i) {
+    if (scaled_[i] == 0) continue;
+    if (s.mass[i] > 0.0 && s.stiffness[i] * half_square > s.mass[i]) {
+      const double more = scaling_margin * s.stiffness[i] * half_square - s.mass[i];
+      s.mass[i] += more;
+      added_mass_ += more;
+      energy += 0.5 * more * squared_norm(s.v[i]);
+    }
+    if (s.inertia[i] > 0.0 && s.rotational_stiffness[i] * half_square > s.inertia[i]) {
+      const double more = scaling_margin * s.rotational_stiffness[i] * half_square - s.inertia[i];
+      s.inertia[i] += more;
+      energy += 0.5 * more * squared_norm(s.w[i]);
+    }
+  }
+  return energy;
+}
+
+StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness,
+                                parallel::ThreadPool& pool) {
+  const model::Controls& control = model_.controls;
+  StepController who;
+  double step = 1e30;
+  const auto take = [&](double candidate, const StepController& controller) {
+    if (candidate < step) {
+      step = candidate;
+      who = controller;
+    }
+  };
+  const bool reference = profile_.system_step == Profile::SystemStep::reference;
+  const bool nodal_only = control.nodal_step || !reference;
+  if (!nodal_only) take(limits.element, limits.element_controller);
+  if (nodal_only || two_sided_) {
+    const Smallest smallest = nodal(s, nodal_only, pool);
+    if (smallest.node != no_index) {
+      const auto i = static_cast<std::size_t>(smallest.node);
+      const bool contact = !smallest.rotation && contact_stiffness[i] > 0.5 * s.stiffness[i];
+      take(nodal_scale_ * std::sqrt(smallest.step),
+           {contact ? StepController::Kind::interface : StepController::Kind::node, model_.node_id[i]});
+    }
+  }
+  if (!reference || two_sided_) take(limits.interface_step, limits.interface_controller);
+  if (control.dt_max < step) take(control.dt_max, {StepController::Kind::fixed, 0});
+  if (s.times.cycle == 0 && control.dt_initial > 0.0 && control.dt_initial < step) take(control.dt_initial, {StepController::Kind::fixed, 0});
+  if (1.1 * previous_step_ < step) step = 1.1 * previous_step_;
+  if (step > 1e29) step = control.t_end > 0.0 ? 1e-3 * control.t_end : 1.0;  // nothing deforms: any step is stable
+  previous_step_ = step;
+  s.times.h_plus = step;
+  s.times.h_bar = 0.5 * (s.times.h_minus + step);
+  return who;
+}
+
+}  // namespace abut::cycle

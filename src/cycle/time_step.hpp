@@ -1,0 +1,60 @@
+// The step that begins at t^n: element, nodal and interface limits, growth and mass scaling (numerics.md 2.2 to 2.5).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/profile.hpp"
+#include "cycle/sink.hpp"
+#include "model/model.hpp"
+#include "parallel/thread_pool.hpp"
+#include "state/state.hpp"
+
+namespace abut::cycle {
+
+/// What limits the coming step, collected during the cycle.
+struct StepLimits {
+  double element = 1e30;               ///< smallest scaled element step
+  StepController element_controller;
+  double interface_step = 1e30;        ///< kinematic limits of interfaces (closing speed against gap)
+  StepController interface_controller;
+};
+
+class TimeStep {
+ public:
+  /// @param free_translation, free_rotation  #N: 0 where a node cannot move (all directions fixed): it does not control
+  TimeStep(const model::Model& model, const Profile& profile, bool has_two_sided_interface,
+           std::vector<std::uint8_t> free_translation, std::vector<std::uint8_t> free_rotation);
+
+  /// Adds mass where /DT/NODA/CST asks for it (2.3). @return energy that the added mass brings, m v.v/2
+  double scale_masses(state::State& s);
+
+  /// Chooses h_plus and h_bar of s.times; says who controls.
+  /// @param contact_stiffness  #N: share of s.stiffness that comes from interfaces
+  StepController choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness,
+                        parallel::ThreadPool& pool);
+
+  [[nodiscard]] double added_mass() const { return added_mass_; }
+
+ private:
+  struct Smallest {
+    double step = 1e30;
+    Index node = no_index;
+    bool rotation = false;
+    Smallest& operator+=(const Smallest& b);
+  };
+  [[nodiscard]] Smallest nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool);
+
+  const model::Model& model_;
+  Profile profile_;
+  bool two_sided_;
+  std::vector<std::uint8_t> free_translation_, free_rotation_;
+  std::vector<std::uint8_t> scaled_;  ///< nodes that may receive mass
+  std::vector<Smallest> leaves_;
+  double nodal_scale_ = 0.9;
+  double previous_step_ = 1e30;       ///< before the first cycle: no limit on growth
+  double added_mass_ = 0.0;
+};
+
+}  // namespace abut::cycle

@@ -1,0 +1,205 @@
+#include "init/contact_setup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+namespace abut::init {
+
+namespace {
+
+using model::ElementKind;
+using model::ElementRef;
+
+double young_of(const model::Material& m) {
+  return std::visit([](const auto& law) { return law.young; }, m.law);
+}
+double poisson_of(const model::Material& m) {
+  return std::visit([](const auto& law) { return law.poisson; }, m.law);
+}
+
+double property_thickness(const model::Property& p) {
+  if (const auto* s = std::get_if<model::ShellProperty>(&p.data)) return s->thickness;
+  if (const auto* v = std::get_if<model::VoidProperty>(&p.data)) return v->thickness;
+  return 0.0;
+}
+
+Index part_of(const model::Model& model, const ElementRef& e) {
+  const auto i = static_cast<std::size_t>(e.index);
+  switch (e.kind) {
+    case ElementKind::shell4: return model.shells.part[i];
+    case ElementKind::shell3: return model.sh3ns.part[i];
+    case ElementKind::brick: return model.bricks.part[i];
+    case ElementKind::tetra: return model.tetras.part[i];
+    case ElementKind::none: break;
+  }
+  return no_index;
+}
+
+/// One-point volume of a brick (numerics.md 4.1) or the volume of a tetrahedron.
+double solid_volume(const model::Model& model, const ElementRef& e, std::span<const Vec3> x) {
+  if (e.kind == ElementKind::tetra) {
+    const auto& n = model.tetras.nodes[static_cast<std::size_t>(e.index)];
+    const auto at = [&](int k) { return x[static_cast<std::size_t>(n[static_cast<std::size_t>(k)])]; };
+    return std::abs(dot(at(1) - at(0), cross(at(2) - at(0), at(3) - at(0)))) / 6.0;
+  }
+  const auto& n = model.bricks.nodes[static_cast<std::size_t>(e.index)];
+  const auto at = [&](int k) { return x[static_cast<std::size_t>(n[static_cast<std::size_t>(k)])]; };
+  const Vec3 d17 = at(6) - at(0);
+  const Vec3 d28 = at(7) - at(1);
+  const Vec3 d35 = at(4) - at(2);
+  const Vec3 d46 = at(5) - at(3);
+  return std::abs(dot(d17 - d28 - d35 + d46, cross(d17 + d28 - d35 - d46, d17 + d28 + d35 + d46))) / 64.0;
+}
+
+contact::Facet facet_of(const model::Segment& s) { return {s.nodes}; }
+
+contact::Surface make_surface(const model::Model& model, const model::Surface& surface) {
+  std::vector<contact::Facet> facets;
+  facets.reserve(surface.segments.size());
+  for (const model::Segment& s : surface.segments) facets.push_back(facet_of(s));
+  return contact::Surface(std::move(facets), model.node_id);
+}
+
+contact::Options make_options(const model::Interface& card, const Profile& profile, std::optional<contact::Law> law) {
+  contact::Options o;
+  o.stiffness_scale = card.stfac;
+  o.friction = card.friction;
+  o.gap = card.gap;
+  o.birth = card.t_start;
+  o.death = card.t_stop;
+  o.rules = profile.reference_contact ? contact::Rules::reference() : contact::Rules::standard();
+  o.shear_limit = profile.reference_contact ? model::infinity : card.ptlim;
+  if (law) o.rules.law = *law;
+  return o;
+}
+
+using FaceKey = std::array<Index, 4>;
+
+FaceKey face_key(std::array<Index, 4> n) {
+  std::sort(n.begin(), n.end());
+  const auto last = std::unique(n.begin(), n.end());
+  std::fill(last, n.end(), no_index);
+  return n;
+}
+
+/// Elements that contain each given face: shells with just these nodes, solids with this face.
+class FaceOwners {
+ public:
+  explicit FaceOwners(const model::Model& model) {
+    for (Index e = 0; e < model.shells.size(); ++e) add(model.shells.nodes[static_cast<std::size_t>(e)], {ElementKind::shell4, e});
+    for (Index e = 0; e < model.sh3ns.size(); ++e) {
+      const auto& n = model.sh3ns.nodes[static_cast<std::size_t>(e)];
+      add({n[0], n[1], n[2], n[2]}, {ElementKind::shell3, e});
+    }
+    static constexpr int faces[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
+    for (Index e = 0; e < model.bricks.size(); ++e) {
+      const auto& n = model.bricks.nodes[static_cast<std::size_t>(e)];
+      for (const auto& f : faces) {
+        add({n[static_cast<std::size_t>(f[0])], n[static_cast<std::size_t>(f[1])], n[static_cast<std::size_t>(f[2])],
+             n[static_cast<std::size_t>(f[3])]},
+            {ElementKind::brick, e});
+      }
+    }
+    static constexpr int sides[4][3] = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
+    for (Index e = 0; e < model.tetras.size(); ++e) {
+      const auto& n = model.tetras.nodes[static_cast<std::size_t>(e)];
+      for (const auto& f : sides) {
+        const Index third = n[static_cast<std::size_t>(f[2])];
+        add({n[static_cast<std::size_t>(f[0])], n[static_cast<std::size_t>(f[1])], third, third}, {ElementKind::tetra, e});
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<ElementRef> of(const std::array<Index, 4>& nodes) const {
+    const auto found = owners_.find(face_key(nodes));
+    return found == owners_.end() ? std::vector<ElementRef>{} : found->second;
+  }
+
+ private:
+  void add(const std::array<Index, 4>& nodes, ElementRef e) { owners_[face_key(nodes)].push_back(e); }
+  std::map<FaceKey, std::vector<ElementRef>> owners_;
+};
+
+RunInterface::Side make_side(const model::Model& model, const model::Surface& surface, const FaceOwners* owners, std::span<const Vec3> x) {
+  RunInterface::Side side;
+  for (const model::Segment& s : surface.segments) {
+    side.stiffness.push_back(segment_stiffness(model, s, x));
+    if (owners != nullptr) side.elements.push_back(owners->of(s.nodes));
+  }
+  side.active.assign(surface.segments.size(), 1);
+  return side;
+}
+
+}  // namespace
+
+double segment_stiffness(const model::Model& model, const model::Segment& segment, std::span<const Vec3> x) {
+  const ElementRef& e = segment.element;
+  const Index part = part_of(model, e);
+  if (part == no_index) return 0.0;
+  const model::Part& p = model.parts[static_cast<std::size_t>(part)];
+  if (p.material == no_index || p.property == no_index) return 0.0;
+  const model::Material& material = model.materials[static_cast<std::size_t>(p.material)];
+  const double young = young_of(material);
+  if (e.kind == ElementKind::shell4 || e.kind == ElementKind::shell3) {
+    return young * property_thickness(model.properties[static_cast<std::size_t>(p.property)]);
+  }
+  const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(segment.nodes[k])]; };
+  const double area = 0.5 * norm(cross(at(2) - at(0), at(3) - at(1)));
+  const double bulk = young / (3.0 * (1.0 - 2.0 * poisson_of(material)));
+  return bulk * area * area / solid_volume(model, e, x);
+}
+
+std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, std::optional<contact::Law> law,
+                                          state::State& state) {
+  std::optional<FaceOwners> owners;
+  if (std::any_of(model.interfaces.begin(), model.interfaces.end(), [](const model::Interface& i) { return i.idel != 0; })) {
+    owners.emplace(model);
+  }
+  const std::span<const Vec3> x(state.x);
+  std::vector<RunInterface> out;
+  for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+    const model::Interface& card = model.interfaces[i];
+    const contact::Options options = make_options(card, profile, law);
+    const FaceOwners* own = card.idel != 0 ? &*owners : nullptr;
+    if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) {
+      const model::Surface& first = model.surfaces[static_cast<std::size_t>(t3->surface_1)];
+      const model::Surface& second = model.surfaces[static_cast<std::size_t>(t3->surface_2)];
+      RunInterface r{static_cast<Index>(i),
+                     contact::Interface::two_surfaces(make_surface(model, first), make_surface(model, second), options),
+                     {make_side(model, first, own, x), make_side(model, second, own, x)}};
+      for (int side = 0; side < 2; ++side) {
+        const RunInterface::Side& s = r.sides[static_cast<std::size_t>(side)];
+        r.contact.set_surface(side, {s.stiffness, {}, s.active});
+      }
+      out.push_back(std::move(r));
+    }
+  }
+  return out;
+}
+
+void update_erosion(const model::Model& model, std::span<RunInterface> interfaces,
+                    const std::function<bool(const ElementRef&)>& alive) {
+  for (RunInterface& r : interfaces) {
+    const int idel = std::abs(model.interfaces[static_cast<std::size_t>(r.model_index)].idel);
+    if (idel == 0) continue;
+    for (std::size_t side = 0; side < r.sides.size(); ++side) {
+      RunInterface::Side& s = r.sides[side];
+      bool changed = false;
+      for (std::size_t f = 0; f < s.elements.size(); ++f) {
+        if (s.active[f] == 0 || s.elements[f].empty()) continue;
+        const auto dead = std::count_if(s.elements[f].begin(), s.elements[f].end(), [&](const ElementRef& e) { return !alive(e); });
+        const bool gone = idel == 2 ? dead > 0 : static_cast<std::size_t>(dead) == s.elements[f].size();
+        if (!gone) continue;
+        s.active[f] = 0;
+        changed = true;
+      }
+      if (changed) r.contact.set_surface(static_cast<int>(side), {s.stiffness, {}, s.active});
+    }
+  }
+}
+
+}  // namespace abut::init

@@ -1,0 +1,45 @@
+// Model interfaces -> contact::Interface objects, and what keeps them in step with eroding elements.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "abut/contact/interface.hpp"
+#include "core/profile.hpp"
+#include "elements/group.hpp"
+#include "model/model.hpp"
+#include "state/state.hpp"
+
+namespace abut::init {
+
+/// Own stiffness of a segment: E t for a shell (property thickness), B A^2 / V for a brick or tetrahedron face (T16..T18);
+/// 0 without an element behind it.
+[[nodiscard]] double segment_stiffness(const model::Model& model, const model::Segment& segment, std::span<const Vec3> x);
+
+/// One interface of the model with its facets' elements.
+struct RunInterface {
+  Index model_index = no_index;
+  contact::Interface contact;
+  /// Per side (0 first, 1 second) and facet: own stiffness, activity, and the elements that contain the facet (Idel).
+  struct Side {
+    std::vector<double> stiffness;
+    std::vector<std::uint8_t> active;
+    std::vector<std::vector<model::ElementRef>> elements;
+  };
+  std::vector<Side> sides;  ///< two for TYPE3, {unused, main} otherwise
+};
+
+/// @param law  overrides the profile's normal law for every interface when set (--interface-law)
+/// @param state  initial state after rigid bodies moved their main nodes; `Inacti` of TYPE5 and TYPE7 may move nodes
+[[nodiscard]] std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile,
+                                                        std::optional<contact::Law> law, state::State& state);
+
+/// Switches off facets whose elements were deleted: Idel 1 when all of them are, Idel 2 when one is (numerics.md 7.4.7).
+/// @param alive  tells whether an element is still active
+void update_erosion(const model::Model& model, std::span<RunInterface> interfaces,
+                    const std::function<bool(const model::ElementRef&)>& alive);
+
+}  // namespace abut::init

@@ -1,0 +1,72 @@
+#include "init/start.hpp"
+
+#include <utility>
+
+namespace abut::init {
+
+namespace {
+
+template <std::size_t N>
+std::vector<std::vector<Index>> by_part(const model::Elements<N>& table, std::size_t parts) {
+  std::vector<std::vector<Index>> lists(parts);
+  for (Index e = 0; e < table.size(); ++e) lists[static_cast<std::size_t>(table.part[static_cast<std::size_t>(e)])].push_back(e);
+  return lists;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& model, const Profile& profile) {
+  const std::size_t parts = model.parts.size();
+  auto shells = by_part(model.shells, parts);
+  auto triangles = by_part(model.sh3ns, parts);
+  auto bricks = by_part(model.bricks, parts);
+  auto tetras = by_part(model.tetras, parts);
+
+  std::vector<std::unique_ptr<elements::Group>> groups;
+  const auto add = [&](auto make, std::vector<Index>& list, std::size_t part, const model::StepControl& control) {
+    if (list.empty()) return;
+    elements::GroupInput in;
+    in.model = &model;
+    in.part = static_cast<Index>(part);
+    in.elements = std::move(list);
+    in.profile = profile;
+    in.step_scale = control.scale;
+    in.step_minimum = control.minimum;
+    in.step_action = control.action;
+    groups.push_back(make(in));
+  };
+  for (std::size_t p = 0; p < parts; ++p) {
+    add(elements::make_shell_q4, shells[p], p, model.controls.shell);
+    add(elements::make_shell_c0, triangles[p], p, model.controls.sh3n);
+    add(elements::make_brick8, bricks[p], p, model.controls.brick);
+    add(elements::make_tetra4, tetras[p], p, model.controls.tetra);
+  }
+  return groups;
+}
+
+state::State make_state(const model::Model& model, std::span<const std::unique_ptr<elements::Group>> groups,
+                        const elements::Assembly& assembly) {
+  state::State s = state::State::zeros(model.node_count());
+  for (std::size_t i = 0; i < model.node_x.size(); ++i) s.x[i] = model.node_x[i];
+
+  std::vector<double> slots(assembly.slot_count(), 0.0);
+  for (const std::unique_ptr<elements::Group>& g : groups) g->initial_masses(slots);
+  assembly.sum_masses(slots, s.mass, s.inertia);
+  for (const model::AddedMass& m : model.added_masses) s.mass[static_cast<std::size_t>(m.node)] += m.mass;
+
+  // The last card that names a node wins (deck-format.md D.2).
+  for (const model::InitialVelocity& card : model.initial_velocities) {
+    for (const Index n : card.nodes) (card.rotational ? s.w : s.v)[static_cast<std::size_t>(n)] = card.value;
+  }
+  for (const model::InitialRotation& card : model.initial_rotations) {
+    const Vec3 omega = card.rate * card.axis;
+    for (const Index n : card.nodes) {
+      const auto i = static_cast<std::size_t>(n);
+      s.v[i] = card.translation + cross(omega, s.x[i] - card.origin);
+      if (s.inertia[i] > 0.0) s.w[i] = omega;
+    }
+  }
+  return s;
+}
+
+}  // namespace abut::init
