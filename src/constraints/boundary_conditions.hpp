@@ -1,0 +1,54 @@
+// /BCS: components of motion that are held at zero (numerics.md 6.6.3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "constraints/axes.hpp"
+#include "constraints/work_meter.hpp"
+#include "model/model.hpp"
+#include "state/state.hpp"
+
+namespace abut::constraints {
+
+class RigidBodies;
+
+/// Removes fixed components from acceleration and half-step velocity: a -= (a.e) e, v -= (v.e) e, rotations alike.
+/// Cards on one node with the same skew accumulate; with different skews the fixed directions are orthonormalised.
+class BoundaryConditions {
+ public:
+  BoundaryConditions(const model::Model& model, const Axes& axes, const RigidBodies& bodies);
+
+  /// Steps 18 and 22. Secondary nodes of active rigid bodies are left alone: step 23 overwrites them.
+  void apply(state::State& state);
+
+  /// IBC of interfaces: direction 0..2 translation, 3..5 rotation, along the axes of the node's own card.
+  void release(Index node, int direction);
+  void restore(Index node, int direction);
+  void restore_all();
+
+  /// True when a card holds this direction of the node and it is not released.
+  [[nodiscard]] bool fixed(Index node, int direction) const;
+
+  /// Orthonormal directions that are held now, first `count` of the array. @param rotation rotations, else translations
+  struct Held { std::array<Vec3, 3> axis; int count = 0; };
+  [[nodiscard]] Held held(Index node, bool rotation) const;
+
+  /// Step 25: exact discrete work of both applications (negative: kinetic energy taken).
+  double ledger_work(const state::State& state) { return meter_.settle(state); }
+
+ private:
+  struct Entry { Index node, skew; std::uint8_t bits; };  ///< bit k: direction k of 0..5
+  [[nodiscard]] std::uint8_t released(Index node) const { return released_[static_cast<std::size_t>(node)]; }
+
+  const Axes* axes_;
+  const RigidBodies* bodies_;
+  std::vector<Entry> entries_;             ///< sorted by node, then skew
+  std::vector<Index> first_;               ///< #N + 1: entries of node i are [first_[i], first_[i + 1])
+  std::vector<Index> nodes_;               ///< nodes with an entry
+  std::vector<std::uint8_t> released_;     ///< #N
+  WorkMeter meter_;
+};
+
+}  // namespace abut::constraints

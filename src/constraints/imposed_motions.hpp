@@ -1,0 +1,56 @@
+// /IMPVEL, /IMPDISP, /IMPACC (numerics.md 6.3; work: 1.6.4).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "constraints/axes.hpp"
+#include "constraints/curves.hpp"
+#include "constraints/work_meter.hpp"
+#include "model/model.hpp"
+#include "state/state.hpp"
+
+namespace abut::constraints {
+
+class RigidBodies;
+
+/// Replaces one component of the acceleration so that the motion meets its curve, for t_start <= t^n <= t_stop:
+///   velocity      a = (F f(t + h_+/2) - v) / h_bar        displacement  a = ((F f(t + h_+) - u) / h_+ - v) / h_bar
+///   displacement started by a sensor: F (f(tau + h_+) - f(tau)) / h_+ in place of (.. - u) / h_+
+///   acceleration  a = F f(t + h_+)
+/// Rotational displacement: the rotation accumulated here since t = 0.
+class ImposedMotions {
+ public:
+  ImposedMotions(const model::Model& model, const Curves& curves, const Axes& axes, const RigidBodies& bodies);
+
+  /// Step 20. Secondary nodes of active rigid bodies are left alone.
+  void apply(state::State& state);
+
+  /// After apply(), once per cycle: (a - a_free)/2 m (v + h_bar a / 2) times h_- now, and times h_+ in the next cycle if the
+  /// condition is still active then (numerics.md 1.6.4).
+  double book_work(const state::State& state);
+
+  /// Step 25: exact discrete work.
+  double ledger_work(const state::State& state) { return meter_.settle(state); }
+
+  /// Reaction of motion i on each of its nodes in this cycle, m (a - a_free) along the axis (force or moment).
+  [[nodiscard]] double reaction(Index motion) const { return reaction_[static_cast<std::size_t>(motion)]; }
+
+ private:
+  struct Dof {
+    Index motion, node;
+    double angle = 0.0;       ///< accumulated rotation (rotational displacement only)
+    double power = 0.0;       ///< m (a - a_free) (v + h_bar a / 2) / 2 of this cycle
+    double old_power = 0.0;   ///< of the previous cycle
+    bool active = false;
+  };
+  const model::Model* model_;
+  const Curves* curves_;
+  const Axes* axes_;
+  const RigidBodies* bodies_;
+  std::vector<Dof> dofs_;
+  std::vector<double> reaction_;
+  WorkMeter meter_;
+};
+
+}  // namespace abut::constraints

@@ -1,0 +1,104 @@
+// /RBODY: nodes that move with one main node (numerics.md 6.2; energy: 1.6.2).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "abut/types.hpp"
+#include "abut/vec3.hpp"
+#include "constraints/axes.hpp"
+#include "model/model.hpp"
+#include "state/state.hpp"
+
+namespace abut::constraints {
+
+class BoundaryConditions;
+
+/// Sums of one body: force and moment about the main node of the secondary nodes (without the main node's own), this cycle
+/// and integrated over time (times h_-); rotation: integral of the main node's angular velocity.
+struct BodySums { Vec3 force_impulse, moment_impulse, force, moment, rotation; };
+
+/// What nodal sums (1/2 m v^2, ...) over all nodes need to become those of the structure, because the mass of secondary nodes
+/// also sits in the main node: add these.
+struct EnergyCorrection {
+  double translation = 0.0, rotation = 0.0, mass = 0.0;
+  Vec3 momentum;
+};
+
+class RigidBodies {
+ public:
+  explicit RigidBodies(const model::Model& model);
+
+  /// Masses, inertia, centre of gravity: moves the main node in x, gives it the body's mass and smallest principal inertia,
+  /// gives secondary nodes the rigid motion of the main node (numerics.md 6.2.1). After masses and initial velocities.
+  /// Bodies with a sensor that has not fired, or that are switched off, are left alone until they are switched on.
+  /// @throws RunError when a body has no mass
+  void initialise(state::State& state);
+
+  /// Body (index in the model) of which the node is a secondary node of an active body; no_index: none.
+  [[nodiscard]] Index body_of(Index node) const { return body_of_[static_cast<std::size_t>(node)]; }
+  /// Body of which the node is the main node, of an active body; no_index: none.
+  [[nodiscard]] Index main_of(Index node) const { return main_of_[static_cast<std::size_t>(node)]; }
+  /// True when all nodes belong to one active body (main node included): the element is switched off.
+  [[nodiscard]] bool contains(std::span<const Index> nodes) const;
+  /// Changes whenever a body is switched on or off: the cycle then asks contains() again.
+  [[nodiscard]] int revision() const { return revision_; }
+
+  /// Step 11: f, m, stiffness and rotational stiffness of secondary nodes go to the main node; their own stiffness is reset to
+  /// 1e-20 (they do not control the step), their f is kept for output. Turns the principal axes by w h_- and sets the main
+  /// node's moment to inertia times the angular acceleration of Euler's equations, so that alpha = m / inertia holds for it too.
+  /// Rotational boundary conditions of the main node reduce the system to the free directions.
+  void gather(state::State& state, const BoundaryConditions& conditions);
+
+  /// Step 23: accelerations of secondary nodes such that they move rigidly with the main node in this step.
+  /// @throws RunError when a body turns by more than one radian in a step
+  void scatter(state::State& state);
+
+  /// Step 25: corrections of kinetic energies, mass and momentum at t^n, v^n = v + h_- a / 2 (numerics.md 1.6.2).
+  [[nodiscard]] EnergyCorrection energy_correction(const state::State& state) const;
+
+  /// Step 25, after scatter: correction of ledger_kinetic_energy() (work_meter.hpp).
+  [[nodiscard]] double ledger_correction(const state::State& state) const;
+  /// Step 25, after scatter: energy that the bodies made or lost in this cycle: change of their T* less the discrete work
+  /// credited to their nodes by forces and meters. Second order in the angle per step (secondary nodes move on parabolas).
+  double ledger_work(const state::State& state);
+
+  [[nodiscard]] std::span<const BodySums> results() const { return sums_; }  ///< per model rigid body
+  /// Mass, principal inertias and axes of an active body.
+  struct Inertia { double mass = 0.0; std::array<double, 3> principal{}; Frame axes{}; };
+  [[nodiscard]] const Inertia& inertia(Index body) const { return bodies_[static_cast<std::size_t>(body)].inertia; }
+  /// J b, J the body's inertia tensor at t^n.
+  [[nodiscard]] Vec3 times_inertia(Index body, const Vec3& b) const;
+
+  /// Velocity gained by `node` along unit `direction` per unit impulse at the node along it: 1/m of a free node,
+  /// 1/M + (r x d) . J^-1 (r x d) for a node of an active body.
+  [[nodiscard]] double inverse_mass(const state::State& state, Index node, const Vec3& direction) const;
+
+ private:
+  struct Credit { Vec3 v, w; };        ///< secondary node's velocity at gather
+  struct Body {
+    bool on = false;
+    Inertia inertia;
+    double own_mass = 0.0, own_inertia = 0.0;  ///< of the main node alone
+    Vec3 main_force, main_moment;      ///< on the main node alone, this cycle
+    Vec3 total_force, euler_alpha;     ///< F, and the alpha that gather put into the moment
+    std::vector<Credit> entry;
+    Vec3 main_v, main_w;               ///< main node at gather
+    double t_star = 0.0;               ///< of the previous cycle
+    double credited_later = 0.0;       ///< second halves of the previous cycle
+    double credited_now = 0.0;         ///< set by scatter
+    bool t_star_known = false;
+  };
+  void switch_on(std::size_t index, state::State& state, bool at_start);
+  void switch_off(std::size_t index, state::State& state);
+  [[nodiscard]] double t_star(std::size_t index, const state::State& state) const;
+
+  const model::Model* model_;
+  std::vector<Body> bodies_;
+  std::vector<BodySums> sums_;
+  std::vector<Index> body_of_, main_of_;
+  int revision_ = 0;
+};
+
+}  // namespace abut::constraints
