@@ -1,0 +1,130 @@
+// The elementary functions of the state path: accurate, and the same bits for every width.
+#include "simd/math.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace {
+
+using abut::simd::Pack;
+
+// 80-bit arithmetic of the C library: 11 bits more than what is tested.
+long double relative_error(double value, long double exact) {
+  return std::fabs((static_cast<long double>(value) - exact) / exact);
+}
+
+std::vector<double> positive_samples(int count) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> exponent(-300.0, 300.0), near_one(0.5, 2.0), strain(-9.0, 1.0);
+  std::vector<double> x;
+  for (int i = 0; i < count; ++i) {
+    x.push_back(std::pow(10.0, exponent(random)));
+    x.push_back(near_one(random));
+    x.push_back(std::pow(10.0, strain(random)));
+    x.push_back(1.0 + std::pow(10.0, strain(random) - 5.0));
+  }
+  x.insert(x.end(), {1.0, 2.0, 0.5, std::sqrt(0.5), std::nextafter(std::sqrt(0.5), 0.0), 0x1p-1022, 0x1p1023});
+  return x;
+}
+
+TEST(Math, LogIsAccurateTo1e15Relative) {
+  long double worst = 0.0L;
+  for (const double x : positive_samples(50000)) {
+    if (x == 1.0) {
+      EXPECT_EQ(abut::simd::log(x), 0.0);
+      continue;
+    }
+    worst = std::max(worst, relative_error(abut::simd::log(x), std::log(static_cast<long double>(x))));
+  }
+  RecordProperty("worst_relative_error", std::to_string(static_cast<double>(worst)));
+  EXPECT_LT(worst, 1e-15L);
+}
+
+TEST(Math, ExpIsAccurateTo1e15Relative) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> wide(-707.0, 709.0), small(-1.0, 1.0);
+  long double worst = 0.0L;
+  for (int i = 0; i < 100000; ++i) {
+    for (const double x : {wide(random), small(random), 1e-6 * small(random)}) {
+      worst = std::max(worst, relative_error(abut::simd::exp(x), std::exp(static_cast<long double>(x))));
+    }
+  }
+  EXPECT_LT(worst, 1e-15L);
+  EXPECT_EQ(abut::simd::exp(0.0), 1.0);
+}
+
+TEST(Math, PowIsAccurateTo1e15Relative) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> exponent(-3.0, 3.0), strain(-12.0, 1.0), hardening(0.01, 1.0);
+  long double worst = 0.0L;
+  for (int i = 0; i < 200000; ++i) {
+    const double x = std::pow(10.0, strain(random)), n = hardening(random);
+    worst = std::max(worst, relative_error(abut::simd::pow(x, n), std::pow(static_cast<long double>(x), static_cast<long double>(n))));
+    const double y = 8.0 * exponent(random);  // stays between 1e-288 and 1e288
+    worst = std::max(worst, relative_error(abut::simd::pow(x, y), std::pow(static_cast<long double>(x), static_cast<long double>(y))));
+  }
+  EXPECT_LT(worst, 1e-15L);
+}
+
+TEST(Math, SpecialArguments) {
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(abut::simd::log(0.0), -inf);
+  EXPECT_TRUE(std::isnan(abut::simd::log(-1.0)));
+  EXPECT_EQ(abut::simd::log(inf), inf);
+  EXPECT_TRUE(std::isnan(abut::simd::log(std::nan(""))));
+  EXPECT_EQ(abut::simd::exp(-1000.0), 0.0);
+  EXPECT_EQ(abut::simd::exp(-inf), 0.0);
+  EXPECT_EQ(abut::simd::exp(710.0), inf);
+  EXPECT_EQ(abut::simd::exp(inf), inf);
+  EXPECT_TRUE(std::isnan(abut::simd::exp(std::nan(""))));
+  EXPECT_EQ(abut::simd::pow(0.0, 0.3), 0.0);
+  EXPECT_EQ(abut::simd::pow(0.0, 0.0), 1.0);
+  EXPECT_EQ(abut::simd::pow(0.0, -0.5), inf);
+  EXPECT_EQ(abut::simd::pow(5.0, 0.0), 1.0);
+  EXPECT_EQ(abut::simd::pow(1.0, 0.37), 1.0);
+  EXPECT_TRUE(std::isnan(abut::simd::pow(-2.0, 0.5)));
+  EXPECT_TRUE(std::isnan(abut::simd::pow(std::nan(""), 0.5)));
+  EXPECT_EQ(abut::simd::pow(inf, 0.5), inf);
+}
+
+template <int W>
+void expect_same_bits() {
+  std::mt19937_64 random(10);
+  std::uniform_real_distribution<double> unit(0.01, 1.5);
+  std::vector<double> x = positive_samples(2000);
+  x.insert(x.end(), {0.0, -1.0, 1e-320, std::numeric_limits<double>::infinity()});
+  while (x.size() % 8 != 0) x.push_back(1.0);
+  for (std::size_t i = 0; i + W <= x.size(); i += W) {
+    double y[W], z[W], logs[W], exps[W], pows[W];
+    for (int l = 0; l < W; ++l) {
+      y[l] = unit(random);
+      z[l] = 100.0 * (unit(random) - 0.7);
+    }
+    abut::simd::store(logs, abut::simd::log(abut::simd::load<W>(&x[i])));
+    abut::simd::store(exps, abut::simd::exp(abut::simd::load<W>(z)));
+    abut::simd::store(pows, abut::simd::pow(abut::simd::load<W>(&x[i]), abut::simd::load<W>(y)));
+    for (int l = 0; l < W; ++l) {
+      const double xs = x[i + static_cast<std::size_t>(l)];
+      const auto same = [](double a, double b) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
+      };
+      EXPECT_TRUE(same(logs[l], abut::simd::log(xs))) << "log " << xs;
+      EXPECT_TRUE(same(exps[l], abut::simd::exp(z[l]))) << "exp " << z[l];
+      EXPECT_TRUE(same(pows[l], abut::simd::pow(xs, y[l]))) << "pow " << xs << ' ' << y[l];
+    }
+  }
+}
+
+TEST(Math, EveryWidthGivesTheBitsOfTheScalar) {
+  expect_same_bits<2>();
+  expect_same_bits<4>();
+  expect_same_bits<8>();
+}
+
+}  // namespace
