@@ -80,9 +80,12 @@ void Cycle::book_interfaces() {
 
 void Cycle::close_balance() {
   state::Balance& b = balance_;
-  const double ledger = ledger_->close(state_, pool_);
-  KineticSums kinetic = ledger_->kinetic(state_, pool_);
-  const constraints::KineticCorrection body = bodies_.kinetic_correction(state_);
+  const double constraint_work = loads_.ledger_work(state_) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
+                                 imposed_.ledger_work(state_) + walls_.ledger_work(state_) + bodies_.ledger_work(state_);
+  const double t_star = constraints::ledger_kinetic_energy(state_) + bodies_.ledger_correction(state_);
+  const double ledger = ledger_.close(state_, t_star, constraint_work);
+  const KineticSums kinetic = ledger_.kinetic(state_, pool_);
+  const constraints::EnergyCorrection body = bodies_.energy_correction(state_);
   b.ke = kinetic.translation + body.translation;
   b.ker = kinetic.rotation + body.rotation;
   b.momentum = kinetic.momentum + body.momentum;

@@ -22,7 +22,7 @@ class Cycle::Timer {
 void Cycle::advance(Sink& sink) {
   StepLimits limits;
   decide_outputs();
-  ledger_->enter(state_);
+  switch_off_rigid_elements();
   axes_.update(state_);                     //  1
   clear_forces();                           //  2
   loads_.apply(state_);                     //  3
@@ -31,8 +31,8 @@ void Cycle::advance(Sink& sink) {
   total_forces();
   {
     const Timer timer(*this, p_constraints);
-    sections_.gather(state_, groups_, slots_);  // 11
-    bodies_.gather(state_);
+    sections_.gather(state_, slots_);           // 11
+    bodies_.gather(state_, boundary_);
     walls_.add_reaction(state_);                // 12
     scaled_energy_ += time_step_->scale_masses(state_);  // 13
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14

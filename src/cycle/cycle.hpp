@@ -11,7 +11,6 @@
 #include "constraints/boundary_conditions.hpp"
 #include "constraints/curves.hpp"
 #include "constraints/axes.hpp"
-#include "constraints/gravities.hpp"
 #include "constraints/imposed_motions.hpp"
 #include "constraints/loads.hpp"
 #include "constraints/rigid_bodies.hpp"
@@ -51,6 +50,7 @@ class Cycle {
   class Timer;
 
   void decide_outputs();
+  void switch_off_rigid_elements();
   void clear_forces();
   void internal_forces(StepLimits& limits);
   void contact_forces(StepLimits& limits);
@@ -75,13 +75,14 @@ class Cycle {
 
   constraints::Curves curves_;
   constraints::Axes axes_;
+  constraints::RigidBodies bodies_;
   constraints::Loads loads_;
   constraints::Gravities gravities_;
   constraints::BoundaryConditions boundary_;
   constraints::ImposedMotions imposed_;
   constraints::RigidWalls walls_;
-  constraints::RigidBodies bodies_;
   constraints::Sections sections_;
+  int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;
   std::vector<double> contact_stiffness_;      // #N
@@ -91,7 +92,7 @@ class Cycle {
   bool releases_ = false;                      // some interface asks for IBC
 
   std::unique_ptr<TimeStep> time_step_;
-  std::unique_ptr<Ledger> ledger_;
+  Ledger ledger_;
   state::Balance balance_;
   StepController controller_;
   double next_history_ = 0.0, next_animation_ = 0.0;
@@ -102,7 +103,6 @@ class Cycle {
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;
-  std::vector<BodyResult> body_results_;
   std::array<double, phase_count> seconds_{};
 };
 

@@ -25,13 +25,13 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       slots_(assembly_.slot_count(), 0.0),
       curves_(model),
       axes_(model),
-      loads_(model, curves_, axes_),
-      gravities_(model, curves_, axes_),
-      boundary_(model, axes_),
-      imposed_(model, curves_, axes_),
-      walls_(model),
       bodies_(model),
-      sections_(model) {
+      loads_(model, curves_, axes_),
+      gravities_(model, curves_, axes_, bodies_),
+      boundary_(model, axes_, bodies_),
+      imposed_(model, curves_, axes_, bodies_),
+      walls_(model, bodies_),
+      sections_(model, groups_) {
   const auto n = static_cast<std::size_t>(model.node_count());
   contact_stiffness_.assign(n, 0.0);
   contact_normal_.resize(n);
@@ -44,19 +44,8 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   bodies_.initialise(state_);
   interfaces_ = init::make_interfaces(model, options.profile, options.interface_law, state_);
 
-  for (const std::unique_ptr<elements::Group>& g : groups_) {
-    std::vector<std::uint8_t> rigid(static_cast<std::size_t>(g->size()), 0);
-    for (Index e = 0; e < g->size(); ++e) rigid[static_cast<std::size_t>(e)] = bodies_.contains(g->nodes(e)) ? 1 : 0;
-    if (std::find(rigid.begin(), rigid.end(), 1) != rigid.end()) g->set_rigid(rigid);
-  }
-
-  std::vector<std::uint8_t> counted(n, 1);
   std::vector<std::uint8_t> free_translation(n, 1);
   std::vector<std::uint8_t> free_rotation(n, 1);
-  for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
-    const model::RigidBody& body = model.rigid_bodies[b];
-    if (body.active) counted[static_cast<std::size_t>(body.main)] = 0;
-  }
   for (const model::Interface& i : model.interfaces) releases_ = releases_ || i.ibc[0] || i.ibc[1] || i.ibc[2];
   for (std::size_t i = 0; i < n; ++i) {
     const auto node = static_cast<Index>(i);
@@ -67,8 +56,17 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   released_.assign(releases_ ? 3 * n : 0, 0);
   time_step_ = std::make_unique<TimeStep>(model, options.profile, has_two_sided_interface(model), std::move(free_translation),
                                           std::move(free_rotation));
-  ledger_ = std::make_unique<Ledger>(std::move(counted));
   next_animation_ = model.controls.animation_start;
+}
+
+void Cycle::switch_off_rigid_elements() {
+  if (bodies_revision_ == bodies_.revision()) return;
+  bodies_revision_ = bodies_.revision();
+  for (const std::unique_ptr<elements::Group>& g : groups_) {
+    std::vector<std::uint8_t> rigid(static_cast<std::size_t>(g->size()), 0);
+    for (Index e = 0; e < g->size(); ++e) rigid[static_cast<std::size_t>(e)] = bodies_.contains(g->nodes(e)) ? 1 : 0;
+    g->set_rigid(rigid);
+  }
 }
 
 double Cycle::element_count() const {

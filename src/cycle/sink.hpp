@@ -11,6 +11,9 @@
 #include "abut/contact/interface.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
+#include "constraints/rigid_bodies.hpp"
+#include "constraints/rigid_walls.hpp"
+#include "constraints/sections.hpp"
 #include "elements/group.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
@@ -31,9 +34,9 @@ struct InterfaceResult {
   double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;
   Index in_contact = 0;
 };
-struct WallResult { Vec3 normal_force, tangential_force, normal_impulse, tangential_impulse; };
-struct BodyResult { Vec3 force_impulse, moment_impulse, force, moment, rotation; };
-struct SectionResult { Vec3 normal_force, tangential_force, moment; Vec3 normal_impulse, tangential_impulse, moment_impulse; };
+using WallResult = constraints::WallSums;
+using BodyResult = constraints::BodySums;
+using SectionResult = constraints::SectionSums;
 
 /// Everything that an output may read at t^n (numerics.md 1.2 step 26). Views are valid during the call only.
 struct Snapshot {
