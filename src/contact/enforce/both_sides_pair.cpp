@@ -1,0 +1,116 @@
+#include "contact/enforce/both_sides_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::contact {
+
+namespace {
+
+struct Closest {
+  Vec3 point;
+  std::array<double, 3> weight{};
+};
+
+/// Closest point of the triangle (a, b, c) by regions [Ericson 2005, Real-Time Collision Detection, 5.1.5].
+Closest closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ap = p - a;
+  const double d1 = dot(ab, ap);
+  const double d2 = dot(ac, ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return {a, {1.0, 0.0, 0.0}};
+  const Vec3 bp = p - b;
+  const double d3 = dot(ab, bp);
+  const double d4 = dot(ac, bp);
+  if (d3 >= 0.0 && d4 <= d3) return {b, {0.0, 1.0, 0.0}};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    const double v = d1 / (d1 - d3);
+    return {a + v * ab, {1.0 - v, v, 0.0}};
+  }
+  const Vec3 cp = p - c;
+  const double d5 = dot(ab, cp);
+  const double d6 = dot(ac, cp);
+  if (d6 >= 0.0 && d5 <= d6) return {c, {0.0, 0.0, 1.0}};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    const double w = d2 / (d2 - d6);
+    return {a + w * ac, {1.0 - w, 0.0, w}};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {b + w * (c - b), {0.0, 1.0 - w, w}};
+  }
+  const double sum = va + vb + vc;
+  const double v = vb / sum;
+  const double w = vc / sum;
+  return {a + v * ab + w * ac, {1.0 - v - w, v, w}};
+}
+
+}  // namespace
+
+BothSidesContact both_sides_contact(const Vec3& node, const std::array<Vec3, 4>& x, bool triangle, double gap) {
+  BothSidesContact out;
+  Vec3 direction;
+  const auto add = [&](const Closest& at, double& p) {
+    const Vec3 r = node - at.point;
+    const double d = norm(r);
+    p = std::max(0.0, gap - d);
+    // A node on the facet itself has no direction: the facet's normal decides below.
+    if (p > 0.0 && d > 0.0) direction += (p / d) * r;
+    out.penetration = std::max(out.penetration, p);
+  };
+  if (triangle) {
+    double p = 0.0;
+    const Closest at = closest_on_triangle(node, x[2], x[0], x[1]);
+    add(at, p);
+    if (p <= 0.0) return out;
+    out.weight = {at.weight[1], at.weight[2], at.weight[0], 0.0};
+  } else {
+    const Vec3 c = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+    double centre = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      double p = 0.0;
+      const Closest at = closest_on_triangle(node, c, x[i], x[j]);
+      add(at, p);
+      out.weight[i] += p * at.weight[1];
+      out.weight[j] += p * at.weight[2];
+      centre += 0.25 * p * at.weight[0];
+    }
+    if (out.penetration <= 0.0) return out;
+    double sum = 0.0;
+    for (double& w : out.weight) sum += (w += centre);
+    for (double& w : out.weight) w /= sum;
+  }
+  const double length = norm(direction);
+  if (length > 0.0) {
+    out.normal = direction / length;
+  } else {
+    out.normal = normalized(triangle ? cross(x[1] - x[0], x[2] - x[0]) : cross(x[2] - x[0], x[3] - x[1]));
+  }
+  return out;
+}
+
+std::array<double, 4> without_hourglass(std::array<double, 4> h) {
+  double eta = 0.25 * (h[1] - h[0] + h[3] - h[2]);
+  eta = std::max(std::min({eta, h[1], h[3]}), std::max(-h[0], -h[2]));
+  return {h[0] + eta, h[1] - eta, h[2] + eta, h[3] - eta};
+}
+
+BothSidesForce both_sides_force(double k0, double gap, double p, double mass, double normal_velocity, double vis_s) {
+  const double left = gap - p;
+  const double ratio = gap / left;
+  BothSidesForce f;
+  f.elastic = k0 * ratio * p;
+  f.energy = k0 * gap * gap * (-p / gap - std::log1p(-p / gap));
+  f.tangent = k0 * ratio * ratio;
+  const double closing = std::max(0.0, -normal_velocity);
+  f.critical = std::sqrt(2.0 * k0 * ratio * mass * (closing > 0.0 ? ratio : 1.0));
+  f.damping = vis_s * f.critical + 0.32 * mass * closing / left;
+  return f;
+}
+
+}  // namespace abut::contact

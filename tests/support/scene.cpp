@@ -1,0 +1,220 @@
+#include "support/scene.hpp"
+
+#include <utility>
+
+namespace abut::scenes {
+
+using model::ElementKind;
+
+std::vector<Index> Block::plane(int axis, bool high) const {
+  std::vector<Index> out;
+  for (int k = 0; k <= cells[2]; ++k) {
+    for (int j = 0; j <= cells[1]; ++j) {
+      for (int i = 0; i <= cells[0]; ++i) {
+        const std::array<int, 3> p{i, j, k};
+        const auto a = static_cast<std::size_t>(axis);
+        if (p[a] == (high ? cells[a] : 0)) out.push_back(at(i, j, k));
+      }
+    }
+  }
+  return out;
+}
+
+Scene::Scene(std::string name) {
+  model.name = std::move(name);
+  model.version = 2022;
+  model.controls.run_name = model.name;
+}
+
+Index Scene::add_node(const Vec3& x) {
+  model.node_id.push_back(static_cast<Id>(model.node_id.size()) + 1);
+  model.node_x.push_back(x);
+  return static_cast<Index>(model.node_id.size()) - 1;
+}
+
+Index Scene::elastic(double density, double young, double poisson) {
+  const Id id = static_cast<Id>(model.materials.size()) + 1;
+  model.materials.push_back({id, "elastic", density, density, model::LawElastic{young, poisson}});
+  return static_cast<Index>(id) - 1;
+}
+
+Index Scene::johnson_cook(double density, double young, double poisson, double a, double b, double n) {
+  const Id id = static_cast<Id>(model.materials.size()) + 1;
+  model::LawJohnsonCook law;
+  law.young = young;
+  law.poisson = poisson;
+  law.a = a;
+  law.b = b;
+  law.n = n;
+  model.materials.push_back({id, "plastic", density, density, law});
+  return static_cast<Index>(id) - 1;
+}
+
+Index Scene::solid_property(int isolid) {
+  const Id id = static_cast<Id>(model.properties.size()) + 1;
+  model::SolidProperty p;
+  p.isolid = isolid;
+  model.properties.push_back({id, "solid", p});
+  return static_cast<Index>(id) - 1;
+}
+
+Index Scene::shell_property(double thickness, int points) {
+  const Id id = static_cast<Id>(model.properties.size()) + 1;
+  model::ShellProperty p;
+  p.thickness = thickness;
+  p.points = points;
+  model.properties.push_back({id, "shell", p});
+  return static_cast<Index>(id) - 1;
+}
+
+Index Scene::part(Index property, Index material) {
+  const Id id = static_cast<Id>(model.parts.size()) + 1;
+  model.parts.push_back({id, "part", property, material, 0.0});
+  return static_cast<Index>(id) - 1;
+}
+
+Block Scene::block(Index part, const Vec3& o, const Vec3& size, std::array<int, 3> n, const std::function<Vec3(const Vec3&)>& shape) {
+  Block b;
+  b.cells = n;
+  for (int k = 0; k <= n[2]; ++k) {
+    for (int j = 0; j <= n[1]; ++j) {
+      for (int i = 0; i <= n[0]; ++i) {
+        const Vec3 p{o.x + size.x * i / n[0], o.y + size.y * j / n[1], o.z + size.z * k / n[2]};
+        b.nodes.push_back(add_node(shape ? shape(p) : p));
+      }
+    }
+  }
+  for (int k = 0; k < n[2]; ++k) {
+    for (int j = 0; j < n[1]; ++j) {
+      for (int i = 0; i < n[0]; ++i) {
+        model.bricks.id.push_back(static_cast<Id>(model.bricks.id.size()) + 1);
+        model.bricks.part.push_back(part);
+        model.bricks.nodes.push_back({b.at(i, j, k), b.at(i + 1, j, k), b.at(i + 1, j + 1, k), b.at(i, j + 1, k), b.at(i, j, k + 1),
+                                      b.at(i + 1, j, k + 1), b.at(i + 1, j + 1, k + 1), b.at(i, j + 1, k + 1)});
+      }
+    }
+  }
+  return b;
+}
+
+std::vector<Index> Scene::shells(Index part, int nu, int nv, const std::function<Vec3(double, double)>& shape, bool flip) {
+  std::vector<Index> nodes;
+  for (int j = 0; j <= nv; ++j) {
+    for (int i = 0; i <= nu; ++i) nodes.push_back(add_node(shape(static_cast<double>(i) / nu, static_cast<double>(j) / nv)));
+  }
+  const auto at = [&](int i, int j) { return nodes[static_cast<std::size_t>(i + (nu + 1) * j)]; };
+  for (int j = 0; j < nv; ++j) {
+    for (int i = 0; i < nu; ++i) {
+      model.shells.id.push_back(static_cast<Id>(model.shells.id.size()) + 1);
+      model.shells.part.push_back(part);
+      model.shells.thickness.push_back(0.0);
+      if (flip) {
+        model.shells.nodes.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+      } else {
+        model.shells.nodes.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+    }
+  }
+  return nodes;
+}
+
+Index Scene::surface(const Block& b, int axis, bool high) {
+  model::Surface s;
+  s.id = static_cast<Id>(model.surfaces.size()) + 1;
+  const int a1 = (axis + 1) % 3;
+  const int a2 = (axis + 2) % 3;
+  for (int q = 0; q < b.cells[static_cast<std::size_t>(a2)]; ++q) {
+    for (int p = 0; p < b.cells[static_cast<std::size_t>(a1)]; ++p) {
+      const auto corner = [&](int dp, int dq) {
+        std::array<int, 3> c{};
+        c[static_cast<std::size_t>(axis)] = high ? b.cells[static_cast<std::size_t>(axis)] : 0;
+        c[static_cast<std::size_t>(a1)] = p + dp;
+        c[static_cast<std::size_t>(a2)] = q + dq;
+        return b.at(c[0], c[1], c[2]);
+      };
+      model::Segment seg;
+      seg.nodes = high ? std::array<Index, 4>{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}
+                       : std::array<Index, 4>{corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)};
+      for (Index e = 0; e < model.bricks.size(); ++e) {
+        const auto& nodes = model.bricks.nodes[static_cast<std::size_t>(e)];
+        int found = 0;
+        for (const Index n : seg.nodes) {
+          for (const Index m : nodes) found += n == m ? 1 : 0;
+        }
+        if (found == 4) seg.element = {ElementKind::brick, e};
+      }
+      s.segments.push_back(seg);
+    }
+  }
+  model.surfaces.push_back(std::move(s));
+  return static_cast<Index>(model.surfaces.size()) - 1;
+}
+
+Index Scene::shell_surface(Index part) {
+  model::Surface s;
+  s.id = static_cast<Id>(model.surfaces.size()) + 1;
+  for (Index e = 0; e < model.shells.size(); ++e) {
+    if (model.shells.part[static_cast<std::size_t>(e)] != part) continue;
+    s.segments.push_back({model.shells.nodes[static_cast<std::size_t>(e)], {ElementKind::shell4, e}});
+  }
+  model.surfaces.push_back(std::move(s));
+  return static_cast<Index>(model.surfaces.size()) - 1;
+}
+
+void Scene::velocity(const std::vector<Index>& nodes, const Vec3& v) {
+  model.initial_velocities.push_back({static_cast<Id>(model.initial_velocities.size()) + 1, false, v, nodes});
+}
+
+void Scene::fix(const std::vector<Index>& nodes, std::array<bool, 3> translation, std::array<bool, 3> rotation) {
+  model.boundary_conditions.push_back(
+      {static_cast<Id>(model.boundary_conditions.size()) + 1, translation, rotation, no_index, nodes});
+}
+
+Index Scene::function(std::vector<double> x, std::vector<double> y) {
+  model.functions.push_back({static_cast<Id>(model.functions.size()) + 1, std::move(x), std::move(y)});
+  return static_cast<Index>(model.functions.size()) - 1;
+}
+
+void Scene::load(const std::vector<Index>& nodes, int direction, double total, Index function) {
+  model::ConcentratedLoad load;
+  load.id = static_cast<Id>(model.concentrated_loads.size()) + 1;
+  load.function = function;
+  load.direction = direction;
+  load.scale_y = total / static_cast<double>(nodes.size());
+  load.nodes = nodes;
+  model.concentrated_loads.push_back(std::move(load));
+}
+
+void Scene::gravity(int direction, double value) {
+  model::Gravity g;
+  g.id = static_cast<Id>(model.gravities.size()) + 1;
+  g.direction = direction;
+  g.scale_y = value;
+  for (Index i = 0; i < model.node_count(); ++i) g.nodes.push_back(i);
+  model.gravities.push_back(std::move(g));
+}
+
+Index Scene::contact(Index surface_1, Index surface_2, double stfac, double friction, double gap) {
+  model::Interface i;
+  i.id = static_cast<Id>(model.interfaces.size()) + 1;
+  i.type = model::InterfaceType3{surface_1, surface_2, 0, 0};
+  i.stfac = stfac;
+  i.friction = friction;
+  i.gap = gap;
+  model.interfaces.push_back(std::move(i));
+  return static_cast<Index>(model.interfaces.size()) - 1;
+}
+
+void Scene::history_node(Index node) {
+  model.th_requests.push_back({model::ThKind::node, model.node_id[static_cast<std::size_t>(node)], node, no_index, "", {"DX", "DY", "DZ", "VX", "VY", "VZ"}});
+}
+
+void Scene::end(double time, double history_interval, double step_scale) {
+  model.controls.t_end = time;
+  if (history_interval > 0.0) model.controls.history_interval = history_interval;
+  model.controls.shell.scale = model.controls.sh3n.scale = step_scale;
+  model.controls.brick.scale = model.controls.tetra.scale = step_scale;
+  model.controls.print_every = 0;
+}
+
+}  // namespace abut::scenes
