@@ -38,10 +38,10 @@ def run(program, name, profile, out, threads):
     done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
     if done.returncode != 0:
         tail = "\n".join(done.stdout.splitlines()[-25:])
-        raise RuntimeError(f"'{' '.join(command)}' ended with status {done.returncode}:\n{tail}")
+        raise RuntimeError(f"abut run {deck.name} --profile {profile} ended with status {done.returncode}:\n{tail}")
     path = Path(out) / f"{name}_th.csv"
     if not path.is_file():
-        raise RuntimeError(f"'{' '.join(command)}' wrote no {path.name}")
+        raise RuntimeError(f"abut run {deck.name} --profile {profile} wrote no {path.name}")
     return compare.read_history(path)
 
 
