@@ -1,0 +1,25 @@
+# Install rules: find_package(abut COMPONENTS contact) gives abut::contact, find_package(abut) also abut::abut.
+include(CMakePackageConfigHelpers)
+set(ABUT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/abut)
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+
+install(TARGETS abut_contact EXPORT abutContactTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT abutContactTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR})
+
+set(ABUT_STAGES core simd parallel deck model elements state init constraints cycle output)
+if(NOT ABUT_CONTACT_ONLY)
+  set_target_properties(abut_abut PROPERTIES EXPORT_NAME abut)
+  list(TRANSFORM ABUT_STAGES PREPEND abut_ OUTPUT_VARIABLE stage_targets)
+  install(TARGETS ${stage_targets} abut_abut EXPORT abutTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT abutTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR})
+  install(TARGETS abut_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/abutConfig.cmake.in ${PROJECT_BINARY_DIR}/abutConfig.cmake
+  INSTALL_DESTINATION ${ABUT_CONFIG_DIR} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/abutConfig.cmake ${PROJECT_BINARY_DIR}/abutConfigVersion.cmake DESTINATION ${ABUT_CONFIG_DIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,39 @@
+// Animation: one VTK unstructured grid per state (NAME_anim/NAME_00000.vtu, ...) and the index NAME.pvd that ParaView opens.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cycle/sink.hpp"
+#include "output/files.hpp"
+
+namespace abut::output {
+
+/// Writes a state whenever `animation_due`, then the index; each file appears under its name only when it is complete, so
+/// whatever the index names can be read, also after the run was killed.
+///
+/// Points are all nodes at their positions x(t) (double precision; the initial ones are points - displacement). Cells are
+/// all elements in the order shells, 3-node shells, bricks, tetrahedra, each by id; degenerate bricks become wedges,
+/// pyramids or tetrahedra. Every state has the same points and cells: an eroded element stays, with `off` = 0 and VTK's
+/// "hidden cell" bit in vtkGhostType, which ParaView does not draw. Fields (animation_fields.hpp) are single precision.
+/// Field data: TimeValue, cycle.
+class Animation final : public cycle::Sink {
+ public:
+  explicit Animation(RunFolder folder);
+  ~Animation() override;
+
+  void begin(const cycle::Snapshot& first) override;
+  void cycle(const cycle::Snapshot& now) override;
+  void end(const cycle::Outcome& outcome) override;
+
+ private:
+  void write_index() const;
+
+  struct Grid;
+  RunFolder folder_;
+  std::unique_ptr<Grid> grid_;
+  std::vector<double> times_;  ///< of the states written so far
+};
+
+}  // namespace abut::output

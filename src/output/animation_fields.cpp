@@ -1,0 +1,113 @@
+#include "output/animation_fields.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace abut::output {
+namespace {
+
+using cycle::Snapshot;
+
+void put(const Vec3& v, double* out) {
+  out[0] = v.x;
+  out[1] = v.y;
+  out[2] = v.z;
+}
+
+template <std::vector<Vec3> state::State::* member>
+void write_vector(const Snapshot& s, std::size_t n, double* out) {
+  put((s.state->*member)[n], out);
+}
+
+/// Force over tributary area. Spans may be empty in a run without interfaces.
+void write_over_area(std::span<const Vec3> force, std::span<const double> area, std::size_t n, double* out) {
+  const double a = n < area.size() ? area[n] : 0.0;
+  put(a > 0.0 && n < force.size() ? force[n] / a : Vec3{}, out);
+}
+
+const NodeField displacement{"displacement", 3, write_vector<&state::State::u>};
+const NodeField velocity{"velocity", 3, write_vector<&state::State::v>};
+const NodeField acceleration{"acceleration", 3, write_vector<&state::State::a>};
+const NodeField angular_velocity{"angular_velocity", 3, write_vector<&state::State::w>};
+const NodeField internal_force{"internal_force", 3, write_vector<&state::State::f_internal>};
+const NodeField external_force{"external_force", 3, write_vector<&state::State::f_external>};
+const NodeField mass{"mass", 1, [](const Snapshot& s, std::size_t n, double* out) { *out = s.state->mass[n]; }};
+const NodeField contact_force{"contact_force", 3, [](const Snapshot& s, std::size_t n, double* out) {
+                                Vec3 f;
+                                if (n < s.contact_normal.size()) f += s.contact_normal[n];
+                                if (n < s.contact_tangential.size()) f += s.contact_tangential[n];
+                                put(f, out);
+                              }};
+const NodeField pressure_normal{"contact_pressure_normal", 3, [](const Snapshot& s, std::size_t n, double* out) {
+                                  write_over_area(s.contact_normal, s.contact_area, n, out);
+                                }};
+const NodeField pressure_tangential{"contact_pressure_tangential", 3, [](const Snapshot& s, std::size_t n, double* out) {
+                                      write_over_area(s.contact_tangential, s.contact_area, n, out);
+                                    }};
+
+const CellField plastic_strain{"plastic_strain", 1, [](const ElementSample& e, double* out) { *out = e.output.plastic_max; }};
+const CellField von_mises{"von_mises", 1, [](const ElementSample& e, double* out) { *out = e.output.von_mises; }};
+const CellField stress{"stress", 6, [](const ElementSample& e, double* out) { std::copy(e.output.stress.begin(), e.output.stress.end(), out); }};
+const CellField off{"off", 1, [](const ElementSample& e, double* out) { *out = e.output.off; }};
+const CellField energy{"energy_per_mass", 1, [](const ElementSample& e, double* out) {
+                         *out = e.mass > 0.0 ? e.output.internal_energy / e.mass : 0.0;
+                       }};
+const CellField pressure{"pressure", 1, [](const ElementSample& e, double* out) { *out = e.output.pressure; }};
+const CellField density{"density", 1, [](const ElementSample& e, double* out) { *out = e.output.density; }};
+const CellField thickness{"thickness", 1, [](const ElementSample& e, double* out) { *out = e.output.thickness; }};
+const CellField hourglass{"hourglass_energy", 1, [](const ElementSample& e, double* out) { *out = e.output.hourglass_energy; }};
+
+/// Selections that ask for something which every state has, or for nothing that is a field.
+bool is_always_there(std::string_view s) {
+  static const std::set<std::string_view> names{"VECT/DISP",        "VECT/VEL",         "VECT/CONT", "VECT/PCONT", "ELEM/EPSP",         "ELEM/VONM",
+                                                "ELEM/OFF",         "ELEM/SIGX",        "ELEM/SIGY", "ELEM/SIGZ",  "ELEM/SIGXY",        "ELEM/SIGYZ",
+                                                "ELEM/SIGZX",       "TENS/STRESS/MEMB", "TENS/STRESS", "GZIP",     "TENS/STRESS/000"};
+  return names.contains(s);
+}
+
+/// "SHELL/EPSP" and "BRICK/EPSP" ask for the same field as "ELEM/EPSP"; "BRICK/TENS/STRESS" as "TENS/STRESS".
+std::string normalised(std::string s) {
+  for (const std::string_view type : {"SHELL/", "BRICK/", "SH3N/", "SOLID/", "ELEM/"}) {
+    if (!s.starts_with(type)) continue;
+    const std::string rest = s.substr(type.size());
+    return rest.starts_with("TENS/") ? rest : "ELEM/" + rest;
+  }
+  return s;
+}
+
+}  // namespace
+
+AnimationFields select_animation_fields(const std::vector<std::string>& selections) {
+  static const std::vector<std::pair<std::string_view, NodeField>> node_fields{{"VECT/ACC", acceleration},
+                                                                               {"VECT/VROT", angular_velocity},
+                                                                               {"VECT/FINT", internal_force},
+                                                                               {"VECT/FEXT", external_force},
+                                                                               {"MASS", mass}};
+  static const std::vector<std::pair<std::string_view, CellField>> cell_fields{
+      {"ELEM/ENER", energy},     {"ELEM/P", pressure},      {"ELEM/DENS", density},
+      {"ELEM/HOURG", hourglass}, {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
+
+  AnimationFields fields{{displacement, velocity, contact_force, pressure_normal, pressure_tangential},
+                         {plastic_strain, von_mises, stress, off},
+                         {}};
+  const auto add_once = [](auto& list, const auto& field) {
+    if (std::none_of(list.begin(), list.end(), [&](const auto& f) { return f.name == field.name; })) list.push_back(field);
+  };
+  for (const std::string& selection : selections) {
+    const std::string s = normalised(selection);
+    if (is_always_there(s)) continue;
+    const auto same = [&s](const auto& entry) { return entry.first == s; };
+    if (const auto n = std::find_if(node_fields.begin(), node_fields.end(), same); n != node_fields.end()) {
+      add_once(fields.nodes, n->second);
+    } else if (const auto c = std::find_if(cell_fields.begin(), cell_fields.end(), same); c != cell_fields.end()) {
+      add_once(fields.cells, c->second);
+    } else if (std::find(fields.left_out.begin(), fields.left_out.end(), selection) == fields.left_out.end()) {
+      fields.left_out.push_back(selection);
+    }
+  }
+  return fields;
+}
+
+}  // namespace abut::output

@@ -1,0 +1,54 @@
+// Files that stay readable: appended whole lines at a time, or replaced as a whole.
+//
+// Every failure (unwritable folder, full disk) is a RunError that names the path and the system's reason.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace abut::output {
+
+/// Names of a run's files in its folder (design: "Names on disk").
+struct RunFolder {
+  std::filesystem::path directory;
+  std::string name;  ///< run name without _0000
+
+  [[nodiscard]] std::filesystem::path listing() const { return directory / (name + ".out"); }
+  [[nodiscard]] std::filesystem::path history() const { return directory / (name + "_th.csv"); }
+  [[nodiscard]] std::filesystem::path animation_index() const { return directory / (name + ".pvd"); }
+  [[nodiscard]] std::filesystem::path animation_folder() const { return directory / (name + "_anim"); }
+  /// State k (0-based) of the animation.
+  [[nodiscard]] std::filesystem::path animation_state(int k) const;
+  [[nodiscard]] std::filesystem::path manifest() const { return directory / "run.json"; }
+};
+
+/// Creates a folder and those above it. @throws RunError when it cannot be made or its path is not a folder
+void create_folder(const std::filesystem::path& folder);
+
+/// Writes a file under a temporary name beside `path` and renames it: readers see the old content or the new, never a
+/// part of it, also when the process is killed. @throws RunError; the temporary file is gone then
+void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// A text file that grows by whole pieces (lines). A piece is in the file when append() returns, so a killed run is
+/// readable up to its last line; a piece that does not fit on the disk is taken back.
+class AppendFile {
+ public:
+  AppendFile() = default;
+  /// Creates or empties the file. @throws RunError
+  explicit AppendFile(std::filesystem::path path);
+  ~AppendFile();
+  AppendFile(AppendFile&& other) noexcept;
+  AppendFile& operator=(AppendFile&& other) noexcept;
+
+  [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+  void append(std::string_view piece);  ///< @throws RunError
+  void close();                         ///< @throws RunError when the system reports a late write error
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  long long good_size_ = 0;
+};
+
+}  // namespace abut::output

@@ -1,0 +1,35 @@
+// run.json: what ran, with what, how it ended.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cycle/sink.hpp"
+#include "output/files.hpp"
+#include "output/run_info.hpp"
+#include "output/run_record.hpp"
+
+namespace abut::output {
+
+/// Written before the first cycle (outcome "running": that is what a killed run leaves) and at the end, each time as a
+/// whole. Keys: abut, decks, settings, model, findings, started, files; at the end also outcome, timings, energies, worst,
+/// hashes (16 hexadecimal digits). Numbers that are not finite become null.
+class Manifest final : public cycle::Sink {
+ public:
+  /// @param timings  asked for at the end; may be empty
+  Manifest(RunFolder folder, RunInfo info, std::function<std::vector<PhaseTime>()> timings);
+
+  void begin(const cycle::Snapshot& first) override;
+  void cycle(const cycle::Snapshot& now) override { record_.cycle(now); }
+  void end(const cycle::Outcome& outcome) override;
+
+ private:
+  RunFolder folder_;
+  RunInfo info_;
+  std::function<std::vector<PhaseTime>()> timings_;
+  RunRecord record_;
+  std::string head_;  ///< what begin() wrote, as JSON text
+};
+
+}  // namespace abut::output

@@ -1,0 +1,30 @@
+// What a run is, for the listing and the manifest: facts that the snapshot does not hold.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+
+namespace abut::output {
+
+struct RunInfo {
+  std::string version;             ///< of abut
+  std::string commit;              ///< of the source, empty when unknown at build
+  std::string compiler;
+  std::string instruction_set;     ///< "sse2", "avx2", "avx512"
+  int threads = 1;
+  std::string profile = "standard";
+  std::string interface_law;       ///< "stiffening", "constant"; empty: the profile's
+  int hash_every = 0;              ///< 0: no state hash
+  std::vector<std::string> decks;  ///< paths of the Starter and Engine decks and their includes
+  std::vector<Diagnostic> findings;
+};
+
+/// Time spent in one phase of a run.
+struct PhaseTime {
+  std::string name;
+  double seconds = 0.0;
+};
+
+}  // namespace abut::output

@@ -1,0 +1,23 @@
+#include "output/run_outputs.hpp"
+
+#include <utility>
+
+#include "output/animation.hpp"
+#include "output/listing.hpp"
+#include "output/manifest.hpp"
+#include "output/time_history.hpp"
+
+namespace abut::output {
+
+std::unique_ptr<SinkSet> open_run_outputs(const RunFolder& folder, const RunInfo& info,
+                                          std::function<std::vector<PhaseTime>()> timings) {
+  create_folder(folder.directory);
+  auto sinks = std::make_unique<SinkSet>();
+  sinks->add(std::make_unique<Listing>(folder, info));
+  sinks->add(std::make_unique<TimeHistory>(folder));
+  sinks->add(std::make_unique<Animation>(folder));
+  sinks->add(std::make_unique<Manifest>(folder, info, std::move(timings)));
+  return sinks;
+}
+
+}  // namespace abut::output

@@ -1,0 +1,70 @@
+// What the last cycle said, kept for the end of a run: views of a snapshot are gone by then.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cycle/sink.hpp"
+#include "output/summary.hpp"
+
+namespace abut::output {
+
+class RunRecord {
+ public:
+  struct Hash {
+    std::int64_t cycle = 0;
+    std::uint64_t value = 0;
+  };
+  struct Worst {
+    double value = 0.0;  ///< signed, of largest magnitude
+    double time = 0.0;
+  };
+
+  void begin(const cycle::Snapshot& first) {
+    elements_ = element_count(*first.model);
+    start_ = Clock::now();
+    balance_ = *first.balance;
+  }
+  void cycle(const cycle::Snapshot& now) {
+    balance_ = *now.balance;
+    const double t = now.state->times.t;
+    keep_worst(error_, balance_.err, t);
+    keep_worst(made_, balance_.cx, t);
+    if (now.hash_due) hashes_.push_back({now.state->times.cycle, now.state_hash});
+  }
+
+  [[nodiscard]] const state::Balance& balance() const { return balance_; }
+  [[nodiscard]] Worst worst_error() const { return error_; }
+  [[nodiscard]] Worst worst_made() const { return made_; }
+  [[nodiscard]] const std::vector<Hash>& hashes() const { return hashes_; }
+  [[nodiscard]] double wall_seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  /// Elements times cycles per second of wall time.
+  [[nodiscard]] double rate(std::int64_t cycles) const {
+    const double seconds = wall_seconds();
+    return seconds > 0.0 ? static_cast<double>(elements_) * static_cast<double>(cycles) / seconds : 0.0;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// A value that is not a number is the worst of all and stays.
+  static void keep_worst(Worst& worst, double value, double time) {
+    if (std::abs(value) > std::abs(worst.value) || (std::isnan(value) && !std::isnan(worst.value))) worst = {value, time};
+  }
+  Index elements_ = 0;
+  Clock::time_point start_ = Clock::now();
+  state::Balance balance_;
+  Worst error_, made_;
+  std::vector<Hash> hashes_;
+};
+
+/// Added mass over the mass before scaling.
+[[nodiscard]] inline double mass_error(const state::Balance& b) {
+  const double initial = b.mass - b.added_mass;
+  return initial > 0.0 ? b.added_mass / initial : 0.0;
+}
+
+}  // namespace abut::output

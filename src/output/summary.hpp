@@ -1,0 +1,28 @@
+// A page of text about a model: what `abut check` prints and what opens the listing.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "cycle/sink.hpp"
+#include "model/model.hpp"
+
+namespace abut::output {
+
+/// Units, counts, parts (with their masses when given), interfaces and what they join, conditions, run controls and
+/// skipped keywords.
+/// @param part_mass  #parts initial masses; empty: not shown
+[[nodiscard]] std::string model_summary(const model::Model& model, std::span<const double> part_mass);
+
+/// "TYPE3", "TYPE5", "TYPE7".
+[[nodiscard]] std::string_view interface_type(const model::Interface& interface);
+
+/// Who gives the step, in words: "SHELL", "NODE", "INTER", ...; "-" for none.
+[[nodiscard]] std::string_view controller_name(cycle::StepController::Kind kind);
+/// "finished", "stopped", "interrupted", "failed".
+[[nodiscard]] std::string_view outcome_name(cycle::Outcome::Kind kind);
+
+/// Elements of all kinds.
+[[nodiscard]] Index element_count(const model::Model& model);
+
+}  // namespace abut::output

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Tests of the project's own scripts: each check must find what it is there to find."""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+def run(script, *arguments, env=None):
+    done = subprocess.run([sys.executable, str(ROOT / script), *map(str, arguments)], text=True, capture_output=True, env=env)
+    return done.returncode, done.stdout + done.stderr
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.root = Path(self.temporary.name)
+        self.write("include/abut/contact/surface.hpp", "#pragma once\n#include <vector>\n")
+        self.write("src/core/id.hpp", "#pragma once\n")
+        self.write("src/cycle/sink.hpp", "#pragma once\n#include \"abut/contact/surface.hpp\"\n")
+        self.write("src/contact/search/tree.hpp", "#pragma once\n#include <abut/contact/surface.hpp>\n")
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+class IncludeDirections(Tree):
+    def check(self):
+        return run("scripts/check_includes.py", self.root)
+
+    def test_a_clean_tree_passes(self):
+        self.assertEqual(self.check()[0], 0, self.check()[1])
+
+    def refused(self, name, text, words):
+        self.write(name, text)
+        status, output = self.check()
+        self.assertEqual(status, 1, output)
+        self.assertIn(words, output)
+
+    def test_contact_sees_only_itself(self):
+        self.refused("src/contact/a.cpp", "#include \"core/id.hpp\"\n", "src/contact/a.cpp:1: core/id.hpp: contact/ includes")
+
+    def test_contact_sees_no_library(self):
+        self.refused("src/contact/a.cpp", "#include <fmt/format.h>\n", "contact/ includes include/abut and itself only")
+
+    def test_nobody_sees_inside_contact(self):
+        self.refused("src/cycle/a.cpp", "\n#include \"contact/search/tree.hpp\"\n", "a.cpp:2:")
+
+    def test_cycle_does_not_know_output(self):
+        self.write("src/output/csv.hpp", "#pragma once\n")
+        self.refused("src/cycle/a.cpp", "#include \"output/csv.hpp\"\n", "cycle/ comes before output/")
+
+    def test_output_may_know_cycle(self):
+        self.write("src/output/csv.hpp", "#pragma once\n#include \"cycle/sink.hpp\"\n")
+        self.assertEqual(self.check()[0], 0)
+
+    def test_only_parallel_uses_mpi(self):
+        self.write("src/parallel/ranks.cpp", "#include <mpi.h>\n")
+        self.assertEqual(self.check()[0], 0)
+        self.refused("src/cycle/a.cpp", "#include <mpi.h>\n", "MPI is used in src/parallel/ only")
+
+    def test_public_headers_stay_public(self):
+        self.refused("include/abut/run.hpp", "#include \"core/id.hpp\"\n", "a public header includes the standard library")
+
+    def test_a_commented_include_is_none(self):
+        self.write("src/contact/a.cpp", "// #include \"core/id.hpp\"\n/*\n#include \"core/id.hpp\"\n*/\n")
+        self.assertEqual(self.check()[0], 0)
+
+    def test_a_long_file_is_a_warning(self):
+        self.write("src/core/long.cpp", "\n" * 501)
+        status, output = self.check()
+        self.assertEqual(status, 0)
+        self.assertIn("src/core/long.cpp: warning: 501 lines", output)
+
+    def test_a_stage_that_is_none(self):
+        self.refused("src/utils/a.cpp", "", "is in no stage")
+
+
+class Objects(Tree):
+    def build(self, target, text, *flags):
+        self.write(f"{target}.cpp", text)
+        folder = self.root / "CMakeFiles" / f"{target}.dir"
+        folder.mkdir(parents=True)
+        subprocess.run(["c++", "-std=c++20", "-O1", *flags, "-c", str(self.root / f"{target}.cpp"), "-o", str(folder / "a.o")], check=True)
+
+    def check(self, *arguments):
+        return run("scripts/check_isa_objects.py", self.root, *arguments)
+
+    def test_a_clean_kernel_passes(self):
+        kernel = "#include <cmath>\nnamespace abut::elements::avx2 { double f(double a) { return std::sqrt(a) + 1; } }\n"
+        self.build("abut_elements_avx2", kernel)
+        self.assertEqual(self.check()[0], 0, self.check()[1])
+
+    def test_a_library_function_is_found(self):
+        self.build("abut_elements_avx2", "#include <vector>\nnamespace abut { void f(std::vector<int>& v, int k) { v.insert(v.begin(), 3, k); } }\n")
+        status, output = self.check()
+        self.assertEqual(status, 1)
+        self.assertIn("not of namespace abut", output)
+
+    def test_a_shared_inline_function_is_found(self):
+        text = "namespace abut { template <class T> [[gnu::noinline]] T twice(T a) { return a + a; } double NAME(double a) { return twice(a); } }\n"
+        self.build("abut_elements_avx2", text.replace("NAME", "f"))
+        self.assertEqual(self.check()[0], 0)
+        self.build("abut_elements", text.replace("NAME", "g"))
+        status, output = self.check()
+        self.assertEqual(status, 1)
+        self.assertIn("weakly, and so do objects of: common", output)
+
+    def test_the_maths_library_is_found(self):
+        self.build("abut_contact", "#include <cmath>\nnamespace abut { double f(double a) { return std::pow(a, 1.5); } }\n")
+        self.assertEqual(self.check()[0], 0)
+        status, output = self.check("--state-path", "contact")
+        self.assertEqual(status, 1)
+        self.assertIn("imports pow", output)
+
+
+class Summary(Tree):
+    def test_it_reads_the_last_row_and_the_extremes(self):
+        self.write("x_th.csv", "time,GLOBAL/IE,GLOBAL/KE,GLOBAL/ERR,INTER/1/FNX,INTER/1/FNY,INTER/1/FNZ,INTER/1/NC\n"
+                               "0,0,10,0,0,0,0,0\n1,4,6,-0.02,3,0,4,7\n2,1,9,0.001,0,0,0,0\n")
+        status, output = run("scripts/summarise_run.py", self.root)
+        self.assertEqual(status, 0)
+        self.assertIn("largest normal force 5 at time 1", output)
+        self.assertIn("worst -2.0000% at time 1", output)
+        self.assertRegex(output, r"kinetic energy at the start +10\n")
+        self.assertIn("up to 7 nodes", output)
+
+    def test_an_empty_folder_is_an_error(self):
+        self.assertEqual(run("scripts/summarise_run.py", self.root)[0], 1)
+
+
+class PublicHeaders(Tree):
+    def test_a_header_that_needs_another(self):
+        self.assertEqual(run("scripts/check_public_headers.py", "c++", self.root)[0], 0)
+        self.write("include/abut/bad.hpp", "#pragma once\ninline std::vector<int> v;\n")
+        status, output = run("scripts/check_public_headers.py", "c++", self.root)
+        self.assertEqual(status, 1)
+        self.assertIn("include/abut/bad.hpp does not compile alone", output)
+
+
+if __name__ == "__main__":
+    unittest.main()
