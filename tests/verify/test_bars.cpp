@@ -1,0 +1,165 @@
+// Closed forms of longitudinal impact (issue: run a real deck, 6.1), through TYPE3 and the default profile.
+//
+// One-dimensional theory of a bar (impedance Z = rho c A, length L, T = 2 L/c) that moves with v0 onto a spring k in front
+// of a rigid wall (two equal bars with opposite speeds meet at their plane of symmetry: k = 2 K_total of the interface).
+// With a = k/Z, force on the spring:
+//   0 <= t <= T:   F = Z v0 (1 - exp(-a t))
+//   t = T + s:     F = Z v0 [-1 + (2 a s + 2 - exp(-a T)) exp(-a s)]     until F = 0: the bars part.
+// k -> infinity: contact lasts T, force Z v0, velocities reversed (Graff 1975, Wave Motion in Elastic Solids, 2.1.4).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/recorder.hpp"
+#include "support/scene.hpp"
+
+namespace {
+
+using abut::Vec3;
+using abut::scenes::Recorder;
+using abut::scenes::Scene;
+
+struct Impact {
+  double start = -1.0, end = -1.0;  // first and last time with contact
+  double impulse = 0.0, peak = 0.0;
+  double worst_error_free = 0.0, worst_error_contact = 0.0;
+  double made = 0.0;                // |CX| at the end over the largest term
+  Vec3 momentum_first, momentum_last;
+  double exit_speed = 0.0;          // mean z velocity of the first block at the end
+};
+
+struct BarCase {
+  double length = 10.0, side = 1.0, young = 1.0, density = 1.0, v = 0.1;
+  int cells = 40, across = 2;
+  double s = 0.2, gap = 0.0;
+  double end = 40.0;
+  double step_scale = 0.9;
+};
+
+/// K of both passes together: sum over nodes of s K1 K2/(K1 + K2), K1 facet, K2 node (sum of quarters).
+double total_stiffness(const BarCase& b) {
+  const double bulk = b.young / 3.0;  // nu = 0
+  const double area = b.side * b.side / (b.across * b.across);
+  const double facet = bulk * area * area / (area * b.length / b.cells);
+  double sum = 0.0;
+  for (int i = 0; i <= b.across; ++i) {
+    for (int j = 0; j <= b.across; ++j) {
+      const double node = facet * 0.25 * ((i == 0 || i == b.across) ? 1 : 2) * ((j == 0 || j == b.across) ? 1 : 2);
+      sum += b.s * facet * node / (facet + node);
+    }
+  }
+  return 2.0 * sum;
+}
+
+/// Contact time of the one-dimensional theory for two bars.
+double parting_time(const BarCase& b) {
+  const double z = std::sqrt(b.young * b.density) * b.side * b.side;
+  const double period = 2.0 * b.length / std::sqrt(b.young / b.density);
+  const double a = 2.0 * total_stiffness(b) / z;
+  double low = 0.0;
+  double high = 50.0 / a;
+  for (int i = 0; i < 200; ++i) {
+    const double mid = 0.5 * (low + high);
+    ((2.0 * a * mid + 2.0 - std::exp(-a * period)) * std::exp(-a * mid) > 1.0 ? low : high) = mid;
+  }
+  return period + low;
+}
+
+Impact two_bars(const BarCase& b, abut::Profile profile = {}) {
+  Scene scene("bars");
+  const auto material = scene.elastic(b.density, b.young, 0.0);
+  const auto property = scene.solid_property();
+  const auto p1 = scene.part(property, material);
+  const auto p2 = scene.part(property, material);
+  const auto first = scene.block(p1, {0, 0, 0}, {b.side, b.side, b.length}, {b.across, b.across, b.cells});
+  const auto second = scene.block(p2, {0, 0, b.length + b.gap}, {b.side, b.side, b.length}, {b.across, b.across, b.cells});
+  scene.velocity(first.nodes, {0, 0, b.v});
+  scene.velocity(second.nodes, {0, 0, -b.v});
+  scene.contact(scene.surface(first, 2, true), scene.surface(second, 2, false), b.s, 0.0, b.gap);
+  scene.end(b.end, 0.0, b.step_scale);
+  Recorder recorder({first.at(0, 0, 0)});
+  abut::cycle::RunOptions options;
+  options.profile = profile;
+  const auto report = abut::cycle::run(scene.model, options, recorder);
+  EXPECT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished) << report.outcome.message;
+
+  Impact out;
+  out.momentum_first = recorder.samples.front().balance.momentum;
+  out.momentum_last = recorder.samples.back().balance.momentum;
+  for (const auto& sample : recorder.samples) {
+    const auto& contact = sample.interfaces[0];
+    const bool touching = contact.in_contact > 0;
+    if (touching && out.start < 0.0) out.start = sample.time;
+    if (touching) out.end = sample.time;
+    out.peak = std::max(out.peak, std::abs(contact.normal_force.z));
+    out.impulse = std::abs(contact.normal_impulse.z);
+    double& worst = touching ? out.worst_error_contact : out.worst_error_free;
+    worst = std::max(worst, std::abs(sample.balance.err));
+    out.made = std::abs(sample.balance.cx) / sample.balance.largest;
+  }
+  double mass = 0.0;
+  for (const auto n : first.nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    out.exit_speed += recorder.last_state.mass[i] * recorder.last_state.v[i].z;
+    mass += recorder.last_state.mass[i];
+  }
+  out.exit_speed /= mass;
+  return out;
+}
+
+// T13, T17: series stiffness of brick faces decides when penalty-coupled bars part.
+TEST(Bars, PartWhenTheSpringTheorySays) {
+  const BarCase b;
+  const Impact r = two_bars(b);
+  const double expected = parting_time(b);
+  EXPECT_NEAR(r.end - r.start, expected, 0.01 * expected);
+}
+
+TEST(Bars, ApproachIdealContactAsStiffnessGrows) {
+  double previous = 1e30;
+  for (const double s : {0.1, 0.2, 0.4, 0.8}) {
+    BarCase b;
+    b.s = s;
+    const Impact r = two_bars(b);
+    EXPECT_NEAR(r.end - r.start, parting_time(b), 0.01 * parting_time(b)) << "s = " << s;
+    const double off = r.end - r.start - 20.0;
+    EXPECT_GT(off, 0.0);
+    EXPECT_LT(off, previous);
+    previous = off;
+  }
+}
+
+TEST(Bars, ApproachIdealContactAsTheMeshRefines) {
+  double previous = 1e30;
+  for (const int cells : {20, 40, 80}) {
+    BarCase b;
+    b.cells = cells;
+    const Impact r = two_bars(b);
+    EXPECT_NEAR(r.end - r.start, parting_time(b), 0.01 * parting_time(b)) << cells << " elements";
+    const double off = r.end - r.start - 20.0;
+    EXPECT_LT(off, previous);
+    previous = off;
+  }
+}
+
+TEST(Bars, ExchangeVelocities) {
+  const Impact r = two_bars({});
+  EXPECT_NEAR(r.exit_speed, -0.1, 0.01 * 0.1);
+  EXPECT_NEAR(r.impulse, 2.0 * 10.0 * 0.1, 0.01 * 2.0);
+}
+
+// 6.5: linear momentum of a free impact.
+TEST(Bars, ConserveMomentumToRounding) {
+  const Impact r = two_bars({});
+  const double scale = 2.0 * 10.0 * 0.1;
+  EXPECT_LT(abut::norm(r.momentum_last - r.momentum_first), 1e-12 * scale);
+}
+
+TEST(Bars, KeepTheirEnergy) {
+  const Impact r = two_bars({});
+  EXPECT_LT(r.worst_error_free, 0.01);
+  EXPECT_LT(r.worst_error_contact, 0.02);
+  EXPECT_LT(r.made, 0.002);
+}
+
+}  // namespace
