@@ -86,6 +86,33 @@ FaceKey face_key(std::array<Index, 4> n) {
   return n;
 }
 
+/// Repeated nodes of a degenerate face dropped, order kept; a triangle repeats its third node.
+std::array<Index, 4> distinct_first(const std::array<Index, 4>& face) {
+  std::array<Index, 4> out{};
+  std::size_t count = 0;
+  for (const Index n : face) {
+    if (std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count), n) == out.begin() + static_cast<std::ptrdiff_t>(count)) out[count++] = n;
+  }
+  if (count == 3) out[3] = out[2];
+  return out;
+}
+
+constexpr int brick_faces[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
+
+/// The nodes of an element's face in cyclic order, from its sorted key.
+std::array<Index, 4> face_of(const model::Model& model, const ElementRef& e, const FaceKey& key) {
+  if (e.kind == ElementKind::shell4) return model.shells.nodes[static_cast<std::size_t>(e.index)];
+  if (e.kind == ElementKind::brick) {
+    const auto& n = model.bricks.nodes[static_cast<std::size_t>(e.index)];
+    for (const auto& f : brick_faces) {
+      const std::array<Index, 4> face{n[static_cast<std::size_t>(f[0])], n[static_cast<std::size_t>(f[1])],
+                                      n[static_cast<std::size_t>(f[2])], n[static_cast<std::size_t>(f[3])]};
+      if (face_key(face) == key) return distinct_first(face);
+    }
+  }
+  return {key[0], key[1], key[2], key[2]};
+}
+
 /// Elements that contain each given face: shells with just these nodes, solids with this face.
 class FaceOwners {
  public:
@@ -95,10 +122,9 @@ class FaceOwners {
       const auto& n = model.sh3ns.nodes[static_cast<std::size_t>(e)];
       add({n[0], n[1], n[2], n[2]}, {ElementKind::shell3, e});
     }
-    static constexpr int faces[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
     for (Index e = 0; e < model.bricks.size(); ++e) {
       const auto& n = model.bricks.nodes[static_cast<std::size_t>(e)];
-      for (const auto& f : faces) {
+      for (const auto& f : brick_faces) {
         add({n[static_cast<std::size_t>(f[0])], n[static_cast<std::size_t>(f[1])], n[static_cast<std::size_t>(f[2])],
              n[static_cast<std::size_t>(f[3])]},
             {ElementKind::brick, e});
@@ -118,11 +144,34 @@ class FaceOwners {
     const auto found = owners_.find(face_key(nodes));
     return found == owners_.end() ? std::vector<ElementRef>{} : found->second;
   }
+  [[nodiscard]] const std::map<FaceKey, std::vector<ElementRef>>& all() const { return owners_; }
 
  private:
   void add(const std::array<Index, 4>& nodes, ElementRef e) { owners_[face_key(nodes)].push_back(e); }
   std::map<FaceKey, std::vector<ElementRef>> owners_;
 };
+
+bool is_shell(const ElementRef& e) { return e.kind == ElementKind::shell4 || e.kind == ElementKind::shell3; }
+
+/// Own stiffness of nodes that no surface describes (TYPE5): a quarter (triangles: a third) of E t of every shell around
+/// the node and of B A^2/V of every free solid face; where a shell lies on a face, the shell's (T18).
+std::vector<double> node_stiffness(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
+                                   std::span<const Vec3> x) {
+  std::vector<double> all(static_cast<std::size_t>(model.node_count()), 0.0);
+  for (const auto& [key, elements] : owners.all()) {
+    const auto shell = std::find_if(elements.begin(), elements.end(), is_shell);
+    if (shell == elements.end() && elements.size() != 1) continue;  // between two solids
+    model::Segment face;
+    face.element = shell != elements.end() ? *shell : elements.front();
+    face.nodes = face_of(model, face.element, key);
+    const bool triangle = key[3] == no_index;
+    const double share = segment_stiffness(model, face, x) / (triangle ? 3.0 : 4.0);
+    for (std::size_t k = 0; k < (triangle ? 3U : 4U); ++k) all[static_cast<std::size_t>(key[k])] += share;
+  }
+  std::vector<double> out;
+  for (const Index n : nodes) out.push_back(all[static_cast<std::size_t>(n)]);
+  return out;
+}
 
 RunInterface::Side make_side(const model::Model& model, const model::Surface& surface, const FaceOwners* owners, std::span<const Vec3> x) {
   RunInterface::Side side;
@@ -156,7 +205,9 @@ double segment_stiffness(const model::Model& model, const model::Segment& segmen
 std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, std::optional<contact::Law> law,
                                           state::State& state) {
   std::optional<FaceOwners> owners;
-  if (std::any_of(model.interfaces.begin(), model.interfaces.end(), [](const model::Interface& i) { return i.idel != 0; })) {
+  if (std::any_of(model.interfaces.begin(), model.interfaces.end(), [](const model::Interface& i) {
+        return i.idel != 0 || !std::holds_alternative<model::InterfaceType3>(i.type);
+      })) {
     owners.emplace(model);
   }
   const std::span<const Vec3> x(state.x);
@@ -175,6 +226,14 @@ std::vector<RunInterface> make_interfaces(const model::Model& model, const Profi
         const RunInterface::Side& s = r.sides[static_cast<std::size_t>(side)];
         r.contact.set_surface(side, {s.stiffness, {}, s.active});
       }
+      out.push_back(std::move(r));
+    } else if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
+      const model::Surface& main = model.surfaces[static_cast<std::size_t>(t5->surface)];
+      RunInterface r{static_cast<Index>(i),
+                     contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(model, main),
+                                                          options),
+                     {{}, make_side(model, main, own, x)}};
+      r.contact.set_surface(1, {r.sides[1].stiffness, {}, r.sides[1].active});
       out.push_back(std::move(r));
     }
   }
