@@ -35,6 +35,10 @@ struct Block {
 
   /// words[i], or an empty view.
   [[nodiscard]] std::string_view word(std::size_t i) const { return i < words.size() ? words[i] : std::string_view{}; }
+  /// Whether word i is `upper_case`, in any case.
+  [[nodiscard]] bool is(std::size_t i, std::string_view upper_case) const;
+  /// The keyword without surplus blanks and slashes: "/INTER/TYPE3/1".
+  [[nodiscard]] std::string name() const;
 };
 
 /// A Starter or an Engine deck.
