@@ -7,6 +7,7 @@
 
 #include "constraints/axes.hpp"
 #include "constraints/work_meter.hpp"
+#include "core/profile.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
@@ -18,9 +19,10 @@ class RigidBodies;
 /// Cards on one node with the same skew accumulate; with different skews the fixed directions are orthonormalised.
 class BoundaryConditions {
  public:
-  BoundaryConditions(const model::Model& model, const Axes& axes, const RigidBodies& bodies);
+  BoundaryConditions(const model::Model& model, const Axes& axes, const RigidBodies& bodies, const Profile& profile = {});
 
-  /// Steps 18 and 22. Secondary nodes of active rigid bodies are left alone: step 23 overwrites them.
+  /// Steps 18 and 22. Secondary nodes of active rigid bodies are left alone: step 23 overwrites them (reference profile: their
+  /// half-step velocity is zeroed as everywhere, which shows in outputs only).
   void apply(state::State& state);
 
   /// IBC of interfaces: direction 0..2 translation, 3..5 rotation, along the axes of the node's own card.
@@ -40,10 +42,13 @@ class BoundaryConditions {
 
  private:
   struct Entry { Index node, skew; std::uint8_t bits; };  ///< bit k: direction k of 0..5
-  [[nodiscard]] std::uint8_t released(Index node) const { return released_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] std::uint8_t held_bits(const Entry& entry) const {
+    return static_cast<std::uint8_t>(entry.bits & ~released_[static_cast<std::size_t>(entry.node)]);
+  }
 
   const Axes* axes_;
   const RigidBodies* bodies_;
+  bool secondary_too_;
   std::vector<Entry> entries_;             ///< sorted by node, then skew
   std::vector<Index> first_;               ///< #N + 1: entries of node i are [first_[i], first_[i + 1])
   std::vector<Index> nodes_;               ///< nodes with an entry

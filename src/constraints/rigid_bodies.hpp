@@ -8,6 +8,7 @@
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "constraints/axes.hpp"
+#include "core/profile.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
@@ -28,12 +29,11 @@ struct EnergyCorrection {
 
 class RigidBodies {
  public:
-  explicit RigidBodies(const model::Model& model);
+  explicit RigidBodies(const model::Model& model, const Profile& profile = {});
 
   /// Masses, inertia, centre of gravity: moves the main node in x, gives it the body's mass and smallest principal inertia,
   /// gives secondary nodes the rigid motion of the main node (numerics.md 6.2.1). After masses and initial velocities.
   /// Bodies with a sensor that has not fired, or that are switched off, are left alone until they are switched on.
-  /// @throws RunError when a body has no mass
   void initialise(state::State& state);
 
   /// Body (index in the model) of which the node is a secondary node of an active body; no_index: none.
@@ -60,8 +60,9 @@ class RigidBodies {
 
   /// Step 25, after scatter: correction of ledger_kinetic_energy() (work_meter.hpp).
   [[nodiscard]] double ledger_correction(const state::State& state) const;
-  /// Step 25, after scatter: energy that the bodies made or lost in this cycle: change of their T* less the discrete work
-  /// credited to their nodes by forces and meters. Second order in the angle per step (secondary nodes move on parabolas).
+  /// Step 25, after scatter: energy that the numerics of the bodies made or lost up to t^n: change of their T* less the discrete
+  /// work credited to their nodes by forces and meters. Of second order in the angle per step (nodes move on chords, axes turn
+  /// between cycles), plus the energy of impact of a body that a sensor switches on. Once per cycle.
   double ledger_work(const state::State& state);
 
   [[nodiscard]] std::span<const BodySums> results() const { return sums_; }  ///< per model rigid body
@@ -76,25 +77,30 @@ class RigidBodies {
   [[nodiscard]] double inverse_mass(const state::State& state, Index node, const Vec3& direction) const;
 
  private:
-  struct Credit { Vec3 v, w; };        ///< secondary node's velocity at gather
   struct Body {
     bool on = false;
     Inertia inertia;
     double own_mass = 0.0, own_inertia = 0.0;  ///< of the main node alone
-    Vec3 main_force, main_moment;      ///< on the main node alone, this cycle
-    Vec3 total_force, euler_alpha;     ///< F, and the alpha that gather put into the moment
-    std::vector<Credit> entry;
-    Vec3 main_v, main_w;               ///< main node at gather
-    double t_star = 0.0;               ///< of the previous cycle
-    double credited_later = 0.0;       ///< second halves of the previous cycle
-    double credited_now = 0.0;         ///< set by scatter
-    bool t_star_known = false;
+    Vec3 own_moment;               ///< moment on the main node alone, this cycle
+    Vec3 entry_w;                  ///< angular velocity of the main node at gather
+    Vec3 euler_alpha;              ///< angular acceleration that gather put into the moment
+    double rotation_before = 0.0;  ///< rotational T* of the previous cycle plus its second halves, or 1/2 w.Jw when switched on
+    double switch_work = 0.0;      ///< kinetic energy gained (negative: lost) when the body was switched on or off
   };
+  void follow_sensors(state::State& state);
   void switch_on(std::size_t index, state::State& state, bool at_start);
   void switch_off(std::size_t index, state::State& state);
-  [[nodiscard]] double t_star(std::size_t index, const state::State& state) const;
+  void compute_inertia(std::size_t index, state::State& state, int icog, bool card_values);
+  void claim(std::size_t index, bool on);
+  void turn_axes(Inertia& inertia, const Vec3& angle) const;
+  [[nodiscard]] Vec3 angular_acceleration(const Inertia& inertia, const Vec3& torque, const Vec3& w, double h_bar,
+                                          const BoundaryConditions& conditions, Index main) const;
+  /// Kinetic energy of the body's nodes as free nodes, or as a body, from the half-step velocities.
+  [[nodiscard]] double free_energy(std::size_t index, const state::State& state) const;
+  [[nodiscard]] double rigid_energy(std::size_t index, const state::State& state) const;
 
   const model::Model* model_;
+  bool conserving_;
   std::vector<Body> bodies_;
   std::vector<BodySums> sums_;
   std::vector<Index> body_of_, main_of_;

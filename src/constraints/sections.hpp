@@ -8,6 +8,7 @@
 // F_t = F - F_n. Iframe >= 10: moments along global axes instead.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>

@@ -19,12 +19,17 @@ struct Profile {
   enum class HourglassEnergy { trapezoidal, end_of_step };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
+  /// Rigid bodies: exact rotation of secondary nodes, gyroscopic moment at mid-step (keeps energy and angular momentum),
+  /// boundary conditions of secondary nodes without any effect; or rotation to second order, gyroscopic moment at n - 1/2
+  /// and half-step velocities of secondary nodes that their boundary conditions set to zero.
+  enum class RigidBody { conserving, reference };
 
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
+  RigidBody rigid_body = RigidBody::conserving;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -36,6 +41,7 @@ struct Profile {
     p.rotational_hourglass = RotationalHourglass::reference;
     p.hourglass_energy = HourglassEnergy::end_of_step;
     p.solid_sound_speed = SolidSoundSpeed::literal;
+    p.rigid_body = RigidBody::reference;
     p.reference_contact = true;
     return p;
   }

@@ -60,6 +60,7 @@ class BlockReader {
   BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title);
 
   [[nodiscard]] Id id() const { return id_; }
+  [[nodiscard]] Id unit_id() const { return unit_id_; }
   [[nodiscard]] const std::string& title() const { return title_; }
   [[nodiscard]] std::string keyword() const;  ///< "/INTER/TYPE3/1"
 

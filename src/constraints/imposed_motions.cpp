@@ -1,0 +1,88 @@
+#include "constraints/imposed_motions.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "constraints/rigid_bodies.hpp"
+
+namespace abut::constraints {
+
+namespace {
+
+std::vector<Index> moved_nodes(const model::Model& model) {
+  std::vector<Index> nodes;
+  for (const model::ImposedMotion& m : model.imposed_motions) nodes.insert(nodes.end(), m.nodes.begin(), m.nodes.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
+ImposedMotions::ImposedMotions(const model::Model& model, const Curves& curves, const Axes& axes, const RigidBodies& bodies)
+    : model_(&model),
+      curves_(&curves),
+      axes_(&axes),
+      bodies_(&bodies),
+      reaction_(model.imposed_motions.size(), 0.0),
+      meter_(moved_nodes(model), &bodies) {
+  for (std::size_t i = 0; i < model.imposed_motions.size(); ++i) {
+    for (const Index node : model.imposed_motions[i].nodes) dofs_.push_back({static_cast<Index>(i), node});
+  }
+}
+
+void ImposedMotions::apply(state::State& state) {
+  using Kind = model::ImposedMotion::Kind;
+  const state::StepTimes& times = state.times;
+  const double t = times.t, h = times.h_plus, hb = times.h_bar;
+  meter_.before(state);
+  std::fill(reaction_.begin(), reaction_.end(), 0.0);
+  for (Dof& dof : dofs_) {
+    const auto m = static_cast<std::size_t>(dof.motion);
+    const auto i = static_cast<std::size_t>(dof.node);
+    const model::ImposedMotion& motion = model_->imposed_motions[m];
+    dof.old_power = dof.power;
+    dof.power = 0.0;
+    dof.active = t >= motion.t_start && t <= motion.t_stop && curves_->on(motion.sensor, t) && bodies_->body_of(dof.node) == no_index;
+    const bool rotation = motion.direction >= 3;
+    const Vec3 axis = axes_->axis(motion.skew, motion.direction % 3);
+    Vec3& acceleration = rotation ? state.alpha[i] : state.a[i];
+    const double v = dot(rotation ? state.w[i] : state.v[i], axis);
+    const double free = dot(acceleration, axis);
+    if (dof.active) {
+      const auto curve = [&](double at) {
+        return curves_->scaled(motion.function, motion.sensor, motion.scale_x, motion.scale_y, at);
+      };
+      double imposed = 0.0;
+      if (motion.kind == Kind::acceleration) {
+        imposed = curve(t + h);
+      } else if (motion.kind == Kind::velocity) {
+        imposed = (curve(t + 0.5 * h) - v) / hb;
+      } else if (motion.sensor != no_index) {
+        imposed = ((curve(t + h) - curve(t)) / h - v) / hb;
+      } else {
+        const double reached = rotation ? dof.angle : dot(state.u[i], axis);
+        imposed = ((curve(t + h) - reached) / h - v) / hb;
+      }
+      const double change = imposed - free;
+      acceleration += change * axis;
+      const Index body = rotation ? bodies_->main_of(dof.node) : no_index;
+      const double resistance = !rotation ? state.mass[i] : body == no_index ? state.inertia[i] : dot(axis, bodies_->times_inertia(body, axis));
+      dof.power = 0.5 * resistance * change * (v + 0.5 * hb * imposed);
+      reaction_[m] += resistance * change;
+    }
+    // Rotation is not a nodal state: it is summed here, with the velocity that this step will have.
+    if (rotation) dof.angle += h * (v + hb * dot(acceleration, axis));
+  }
+  meter_.after(state);
+}
+
+double ImposedMotions::book_work(const state::State& state) {
+  double work = 0.0;
+  for (const Dof& dof : dofs_) {
+    if (dof.active) work += (dof.old_power + dof.power) * state.times.h_minus;
+  }
+  return work;
+}
+
+}  // namespace abut::constraints

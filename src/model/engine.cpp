@@ -1,0 +1,379 @@
+// Engine deck -> Model::controls (deck-format.md G). Data lines are free format; the order of keywords is free.
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "model/condition_fields.hpp"
+
+namespace abut::model {
+
+namespace {
+
+std::string upper(std::string_view text) {
+  std::string s(text);
+  for (char& x : s) x = static_cast<char>(std::toupper(static_cast<unsigned char>(x)));
+  return s;
+}
+
+bool starts_with_any(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return text.starts_with(w); });
+}
+
+/// Reads the numbers of one block: blanks and commas separate them, missing ones at the end are 0.
+class FreeFormat {
+ public:
+  FreeFormat(const deck::Deck& deck, const deck::Block& block, Diagnostics& diagnostics)
+      : deck_(deck), block_(block), diagnostics_(diagnostics) {
+    for (std::size_t i = 0; i < block.cards.size(); ++i) {
+      std::vector<std::string_view> numbers = split(block.cards[i].text);
+      if (!numbers.empty()) lines_.emplace_back(i, std::move(numbers));
+    }
+  }
+
+  [[nodiscard]] bool empty() const { return lines_.empty(); }
+
+  /// k-th number of the first line that is not blank.
+  double real(std::size_t k, std::string_view field) {
+    if (lines_.empty() || k >= lines_.front().second.size()) return 0.0;
+    const std::string_view text = lines_.front().second[k];
+    const auto value = deck::parse_real(text);
+    if (!value) bad(0, field, fmt::format("'{}' is not a real number", text));
+    return value.value_or(0.0);
+  }
+
+  /// A value that cannot be negative.
+  double positive(std::size_t k, std::string_view field) {
+    const double value = real(k, field);
+    if (value < 0.0) bad(0, field, fmt::format("{} is negative; write 0 or more", value));
+    return std::max(value, 0.0);
+  }
+
+  /// All integers from line `first` on.
+  std::vector<Id> integers(std::size_t first, std::string_view field) {
+    std::vector<Id> ids;
+    for (std::size_t i = first; i < lines_.size(); ++i) {
+      for (const std::string_view text : lines_[i].second) {
+        const auto value = deck::parse_integer(text);
+        if (!value) {
+          bad(i, field, fmt::format("'{}' is not an integer", text));
+        } else if (*value != 0) {
+          ids.push_back(*value);
+        }
+      }
+    }
+    return ids;
+  }
+
+  /// @param line counts the lines that are not blank
+  void bad(std::size_t line, std::string_view field, std::string message, Severity severity = Severity::error) {
+    Place place = line < lines_.size() ? deck_.place(block_, block_.cards[lines_[line].first]) : deck_.place(block_);
+    place.field = std::string(field);
+    diagnostics_.add({severity, "engine.bad_value", std::move(place), std::move(message)});
+  }
+
+ private:
+  static std::vector<std::string_view> split(std::string_view text) {
+    std::vector<std::string_view> numbers;
+    constexpr std::string_view separators = " \t,\r";
+    for (std::size_t begin = text.find_first_not_of(separators); begin != std::string_view::npos;) {
+      const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+      numbers.push_back(text.substr(begin, end - begin));
+      begin = text.find_first_not_of(separators, end);
+    }
+    return numbers;
+  }
+
+  const deck::Deck& deck_;
+  const deck::Block& block_;
+  Diagnostics& diagnostics_;
+  std::vector<std::pair<std::size_t, std::vector<std::string_view>>> lines_;
+};
+
+/// Spellings that mean one field (deck-format.md A.3).
+std::string animation_field(const deck::Block& block) {
+  static const std::map<std::string, std::string> synonyms{
+      {"HOUR", "HOURG"}, {"PRES", "P"},        {"DMASS", "DMAS"},   {"ACCEL", "ACC"},     {"BRIC", "BRICK"},
+      {"EPSDO", "EPSDOT"}, {"STRES", "STRESS"}, {"STRAI", "STRAIN"}, {"VELO", "VEL"},      {"SHEL", "SHELL"}};
+  std::string field;
+  for (std::size_t i = 1; i < block.words.size(); ++i) {
+    std::string word = upper(block.words[i]);
+    const auto found = synonyms.find(word);
+    if (found != synonyms.end()) word = found->second;
+    if (i == 1 && word == "TENS") field = "SHELL";
+    if (!word.empty()) field += (field.empty() ? "" : "/") + word;
+  }
+  return field;
+}
+
+class EngineReader {
+ public:
+  EngineReader(Context& c, const deck::Deck& engine) : c_(c), engine_(engine), k_(c.model->controls) {}
+
+  void read() {
+    // The general step first, so that the order of the deck does not decide between it and the one of a type.
+    for (const deck::Block& block : engine_.blocks) {
+      if (is_keyword(block, "DT") && block.word(1).empty()) read_general_step(block);
+    }
+    for (const deck::Block& block : engine_.blocks) {
+      if (!read_block(block)) refused_.push_back("/" + joined(block));
+    }
+    Place place;
+    place.file = engine_.files.empty() ? std::string{} : engine_.files.front();
+    if (!has_run_) {
+      c_.diagnostics->error("engine.missing_run", place, "the Engine deck has no /RUN/name/1 with the final time on the line below");
+    }
+    if (!refused_.empty()) {
+      c_.diagnostics->error("engine.unsupported", place,
+                            fmt::format("these keywords are not supported, and without them the result would be wrong: {}; take them out to run without",
+                                        fmt::join(refused_, ", ")));
+    }
+    if (!skipped_.empty()) {
+      c_.diagnostics->note("engine.skipped", place,
+                           fmt::format("these keywords do not change the mechanics and are skipped: {}", fmt::join(skipped_, ", ")));
+    }
+  }
+
+ private:
+  static std::string joined(const deck::Block& block) { return fmt::format("{}", fmt::join(block.words, "/")); }
+
+  FreeFormat data(const deck::Block& block) { return {engine_, block, *c_.diagnostics}; }
+
+  static double scale_or_default(double scale) { return scale == 0.0 ? 0.9 : scale; }
+
+  double scale(FreeFormat& d) {
+    const double s = scale_or_default(d.positive(0, "Tsca"));
+    if (s > 1.0) d.bad(0, "Tsca", fmt::format("{} is above 1; the step may be beyond the stable one, 0.9 is usual", s), Severity::warning);
+    return s;
+  }
+
+  void read_general_step(const deck::Block& block) {
+    FreeFormat d = data(block);
+    const double s = scale(d);
+    const double minimum = d.positive(1, "Tmin");
+    using Action = StepControl::Action;
+    for (StepControl* control : {&k_.brick, &k_.tetra, &k_.shell, &k_.sh3n}) {
+      const bool solid = control == &k_.brick || control == &k_.tetra;
+      *control = {s, minimum, minimum > 0.0 ? (solid ? Action::stop : Action::remove) : Action::none};
+    }
+    k_.nodal_scale = s;
+    k_.contact_scale = s;
+  }
+
+  /// true: the block is understood, or may be skipped.
+  bool read_block(const deck::Block& block) {
+    const std::string word = upper(block.word(0));
+    if (word == "RUN") return read_run(block);
+    if (word == "TFILE") return read_history(block);
+    if (word == "PRINT") return read_print(block);
+    if (word == "RFILE") return read_restart(block);
+    if (word == "STOP" || word == "KILL") return read_stop(block);
+    if (word == "DT") return read_step(block);
+    if (word == "DTIX") return read_step_limits(block);
+    if (word == "ANIM") return read_animation(block);
+    if (word == "RBODY") return read_rigid_bodies(block);
+    if (word == "TITLE" || word == "VERS" || word == "MON" || word == "PARITH" || word == "END") return true;
+    if (is_output_file(word) ||
+        starts_with_any(word, {"PROC", "DEBUG", "CHECKPOINT", "THREAD", "NOISE", "OUTP", "STATE", "DYNAIN", "ABF", "H3D", "IOFLAG"}) ||
+        (word == "TH" && (same_word(block.word(1), "VERS") || same_word(block.word(1), "TITLE")))) {
+      skipped_.insert("/" + word);
+      return true;
+    }
+    return false;
+  }
+
+  /// /ATFILE to /ITFILE and /@TFILE: time history in files of their own.
+  static bool is_output_file(std::string_view word) { return word.size() == 6 && word.substr(1) == "TFILE"; }
+
+  bool read_run(const deck::Block& block) {
+    has_run_ = true;
+    k_.run_name = std::string(block.word(1));
+    if (!block.word(2).empty()) {
+      const auto number = deck::parse_integer(block.word(2));
+      if (!number || *number != 1) {
+        c_.diagnostics->error("engine.bad_run", engine_.place(block),
+                              fmt::format("'{}' is not run 1; a run that continues another one is not supported, write /RUN/{}/1", block.word(2), k_.run_name));
+      }
+    }
+    FreeFormat d = data(block);
+    if (d.empty()) {
+      c_.diagnostics->error("engine.missing_time", engine_.place(block), "the final time is missing; write it on the line below /RUN");
+      return true;
+    }
+    k_.t_end = d.real(0, "Tstop");
+    if (k_.t_end <= 0.0) d.bad(0, "Tstop", fmt::format("{} is not a final time; it must be greater than 0", k_.t_end));
+    return true;
+  }
+
+  bool read_history(const deck::Block& block) {
+    const std::string_view type = block.word(1);
+    if (!type.empty() && !is_id(type)) {
+      skipped_.insert("/" + joined(block));
+      return true;
+    }
+    FreeFormat d = data(block);
+    const double interval = d.positive(0, "dt_TH");
+    k_.history_interval = interval > 0.0 ? interval : infinity;
+    return true;
+  }
+
+  bool read_print(const deck::Block& block) {
+    const auto every = deck::parse_integer(block.word(1));
+    if (!every) {
+      c_.diagnostics->warning("engine.bad_value", engine_.place(block), fmt::format("'{}' is not a number of cycles; the listing has a line every 100", block.word(1)));
+    } else if (*every != 0) {
+      k_.print_every = static_cast<int>(std::min<Id>(std::abs(*every), 1000000000));
+    }
+    return true;
+  }
+
+  bool read_restart(const deck::Block& block) {
+    FreeFormat d = data(block);
+    const double cycles = d.positive(0, "ncycle");
+    k_.restart_every = static_cast<int>(std::min(cycles, 1e9));
+    return true;
+  }
+
+  bool read_stop(const deck::Block& block) {
+    if (!block.word(1).empty()) return false;  // on a sensor
+    FreeFormat d = data(block);
+    const auto limit = [&](std::size_t k, std::string_view field) {
+      const double value = d.positive(k, field);
+      return value >= infinity ? 0.0 : value;
+    };
+    k_.stop_energy_error = limit(0, "Emax");
+    k_.stop_total_mass = limit(1, "Mmax");
+    k_.stop_nodal_mass = limit(2, "Nmax");
+    return true;
+  }
+
+  bool read_step(const deck::Block& block) {
+    const std::string type = upper(block.word(1));
+    const std::string action = upper(block.word(2));
+    if (type.empty()) return true;  // read first
+    if (type == "NODA") return read_nodal_step(block, action);
+    if (type == "INTER") return read_contact_step(block, action);
+    const bool solid = type == "BRICK" || type == "BRIC";
+    const bool shell = type == "SHELL" || type == "SHEL";
+    const bool triangle = type == "SH_3N" || type == "SH3N";
+    if (type == "QUAD" || type == "TRUSS" || type == "BEAM" || type == "SPRING") {
+      skipped_.insert("/" + joined(block));  // elements that abut has not
+      return true;
+    }
+    if (!solid && !shell && !triangle) return false;
+    using Action = StepControl::Action;
+    static const std::map<std::string, Action> actions{
+        {"STOP", Action::stop}, {"KILL", Action::stop}, {"DEL", Action::remove}, {"CST", Action::constant}};
+    FreeFormat d = data(block);
+    StepControl control{scale(d), d.positive(1, "Tmin"), solid ? Action::stop : Action::remove};
+    if (!action.empty()) {
+      const auto found = actions.find(action);
+      if (found == actions.end()) return false;
+      control.action = found->second;
+    }
+    if (control.minimum == 0.0) control.action = Action::none;
+    if (!block.word(3).empty() && block.word(3) != "0" && control.action != Action::none) return false;  // criteria of shape
+    if (solid) k_.brick = k_.tetra = control;
+    if (shell) k_.shell = control;
+    if (triangle) k_.sh3n = control;
+    return true;
+  }
+
+  bool read_nodal_step(const deck::Block& block, const std::string& action) {
+    const bool constant = action == "CST" || action == "CST1" || action == "CST2";
+    if (!constant && !action.empty() && !is_id(action)) return false;  // STOP, SET, DEL
+    FreeFormat d = data(block);
+    k_.nodal_step = true;
+    k_.nodal_scale = scale(d);
+    if (!constant) return true;
+    k_.nodal_minimum = d.positive(1, "Tmin");
+    if (k_.nodal_minimum == 0.0) {
+      d.bad(0, "Tmin", "mass scaling needs the step that it shall keep: write a scale and a minimum step, e.g. 0.9 1e-6");
+    }
+    k_.mass_scaling = true;
+    if (block.word(3) == "1") {
+      for (const Id id : d.integers(1, "grnd_ID")) {
+        const auto group = c_.tables.node_groups.find(id);
+        if (group == c_.tables.node_groups.end()) {
+          d.bad(1, "grnd_ID", fmt::format("no /GRNOD with id {}", id));
+          continue;
+        }
+        k_.mass_scaling_nodes = c_.model->node_groups[static_cast<std::size_t>(group->second)].nodes;
+      }
+    }
+    return true;
+  }
+
+  bool read_contact_step(const deck::Block& block, const std::string& action) {
+    using Action = StepControl::Action;
+    static const std::map<std::string, Action> actions{
+        {"", Action::none}, {"STOP", Action::stop}, {"DEL", Action::remove}, {"CST", Action::constant}, {"CST1", Action::constant}, {"CST2", Action::constant}};
+    const auto found = actions.find(action);
+    if (found == actions.end()) return false;
+    FreeFormat d = data(block);
+    k_.contact_scale = scale(d);
+    k_.contact_scale_given = true;
+    k_.contact_minimum = d.positive(1, "Tmin");
+    k_.contact_action = found->second;
+    return true;
+  }
+
+  bool read_step_limits(const deck::Block& block) {
+    FreeFormat d = data(block);
+    k_.dt_initial = d.positive(0, "dt_ini");
+    const double largest = d.positive(1, "dt_max");
+    k_.dt_max = largest > 0.0 ? largest : infinity;
+    if (k_.dt_initial > k_.dt_max) d.bad(0, "dt_ini", fmt::format("the first step {} is larger than the largest one {}", k_.dt_initial, k_.dt_max));
+    return true;
+  }
+
+  bool read_animation(const deck::Block& block) {
+    const std::string field = animation_field(block);
+    if (field == "DT") {
+      FreeFormat d = data(block);
+      k_.animation_start = d.positive(0, "Tstart");
+      const double interval = d.positive(1, "Tfreq");
+      k_.animation_interval = interval > 0.0 ? interval : infinity;
+      return true;
+    }
+    if (field.empty() || field == "GZIP" || field.starts_with("VERS")) return true;
+    if (std::find(k_.animation_fields.begin(), k_.animation_fields.end(), field) == k_.animation_fields.end()) {
+      k_.animation_fields.push_back(field);
+    }
+    return true;
+  }
+
+  bool read_rigid_bodies(const deck::Block& block) {
+    const bool on = same_word(block.word(1), "ON");
+    if (!on && !same_word(block.word(1), "OFF")) return false;
+    FreeFormat d = data(block);
+    for (const Id id : d.integers(0, "node_ID")) {
+      (on ? k_.rbody_on : k_.rbody_off).push_back(id);
+      const auto node = c_.tables.nodes.find(id);
+      const auto body = std::find_if(c_.model->rigid_bodies.begin(), c_.model->rigid_bodies.end(), [&](const RigidBody& b) {
+        return node != c_.tables.nodes.end() && b.main == node->second;
+      });
+      if (body == c_.model->rigid_bodies.end()) {
+        d.bad(0, "node_ID", fmt::format("node {} is not the main node of a /RBODY", id));
+      } else {
+        body->active = on;
+      }
+    }
+    return true;
+  }
+
+  Context& c_;
+  const deck::Deck& engine_;
+  Controls& k_;
+  bool has_run_ = false;
+  std::vector<std::string> refused_;
+  std::set<std::string> skipped_;
+};
+
+}  // namespace
+
+void read_engine(Context& c, const deck::Deck& engine) { EngineReader(c, engine).read(); }
+
+}  // namespace abut::model

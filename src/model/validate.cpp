@@ -1,0 +1,337 @@
+// What can only be judged with everything read: nodes that two interfaces' sides share, empty sets, surfaces without area or stiffness,
+// nodes without mass, rigid bodies that overlap, motions that contradict each other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "model/condition_fields.hpp"
+#include "model/measure.hpp"
+
+namespace abut::model {
+
+namespace {
+
+constexpr std::size_t listed = 20;  ///< how many ids a message names
+
+/// "1, 2, 3 (and 5 more)"
+template <class T>
+std::string list(const std::vector<T>& ids) {
+  const std::size_t n = std::min(ids.size(), listed);
+  std::string s = fmt::format("{}", fmt::join(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(n), ", "));
+  if (ids.size() > n) s += fmt::format(" (and {} more)", ids.size() - n);
+  return s;
+}
+
+std::string plural(std::size_t n, std::string_view one, std::string_view many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+
+class Validator {
+ public:
+  explicit Validator(Context& c) : m_(*c.model), d_(*c.diagnostics), c_(c), mass_(nodal_masses(m_)) {}
+
+  void run() {
+    thicknesses();
+    parts();
+    interfaces();
+    rigid_bodies();
+    motions();
+    loads_on_massless_nodes();
+    unused_functions();
+  }
+
+ private:
+  Place place(std::string_view keyword, Id id) const {
+    Place p;
+    p.keyword = fmt::format("{}/{}", keyword, id);
+    for (const deck::Block& block : c_.deck->blocks) {
+      const std::string_view last = block.word(1);
+      if (same_word(block.word(0), keyword.substr(1)) && deck::parse_integer(last) == id) return c_.deck->place(block);
+    }
+    return p;
+  }
+
+  Id id_of(Index node) const { return m_.node_id[static_cast<std::size_t>(node)]; }
+
+  std::vector<Id> ids_of(const std::vector<Index>& nodes) const {
+    std::vector<Id> ids;
+    for (const Index n : nodes) ids.push_back(id_of(n));
+    return ids;
+  }
+
+  // ---- parts ------------------------------------------------------------------------------------------------------
+
+  void thicknesses() {
+    std::map<Index, std::vector<Id>> thin;  // by part
+    const auto check = [&](const auto& elements) {
+      for (std::size_t i = 0; i < elements.id.size(); ++i) {
+        const Index part = elements.part[i];
+        if (part == no_index || part_young(m_, part) == 0.0) continue;  // a void skin may have no thickness
+        if (shell_thickness(m_, part, elements.thickness[i]) <= 0.0) thin[part].push_back(elements.id[i]);
+      }
+    };
+    check(m_.shells);
+    check(m_.sh3ns);
+    for (const auto& [part, ids] : thin) {
+      d_.error("model.no_thickness", place("/PART", m_.parts[static_cast<std::size_t>(part)].id),
+               fmt::format("{} no thickness: {}; give one greater than 0 in the property or with the element",
+                           ids.size() == 1 ? "1 shell has" : fmt::format("{} shells have", ids.size()), list(ids)));
+    }
+  }
+
+  void parts() {
+    std::vector<bool> used(m_.parts.size(), false);
+    for_each_element(m_, [&](std::span<const Index>, Index part, double) {
+      if (part != no_index) used[static_cast<std::size_t>(part)] = true;
+    });
+    std::vector<Id> empty;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i]) empty.push_back(m_.parts[i].id);
+    }
+    if (!empty.empty()) {
+      d_.note("model.empty_part", {}, fmt::format("{} no element: {}", empty.size() == 1 ? "this part has" : "these parts have", list(empty)));
+    }
+  }
+
+  // ---- interfaces -------------------------------------------------------------------------------------------------
+
+  const Surface& surface(Index s) const { return m_.surfaces[static_cast<std::size_t>(s)]; }
+
+  std::vector<Index> nodes_of(Index s) const {
+    std::vector<Index> nodes;
+    for (const Segment& segment : surface(s).segments) nodes.insert(nodes.end(), segment.nodes.begin(), segment.nodes.end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+  }
+
+  void interfaces() {
+    for (const Interface& i : m_.interfaces) {
+      if (const auto* t3 = std::get_if<InterfaceType3>(&i.type)) {
+        check_surface(i, t3->surface_1, false);
+        check_surface(i, t3->surface_2, false);
+        check_two_sides(i, *t3);
+      } else if (const auto* t5 = std::get_if<InterfaceType5>(&i.type)) {
+        check_surface(i, t5->surface, false);
+        check_nodes(i, t5->nodes, t5->surface);
+      } else if (const auto* t7 = std::get_if<InterfaceType7>(&i.type)) {
+        check_surface(i, t7->surface, t7->istf == 1);
+        check_nodes(i, t7->nodes, no_index);
+      }
+    }
+  }
+
+  bool has_stiffness(const Segment& s) const {
+    const auto k = static_cast<std::size_t>(s.element.index);
+    switch (s.element.kind) {
+      case ElementKind::none: return false;
+      case ElementKind::shell4: return part_young(m_, m_.shells.part[k]) > 0.0 && shell_thickness(m_, m_.shells.part[k], m_.shells.thickness[k]) > 0.0;
+      case ElementKind::shell3: return part_young(m_, m_.sh3ns.part[k]) > 0.0 && shell_thickness(m_, m_.sh3ns.part[k], m_.sh3ns.thickness[k]) > 0.0;
+      case ElementKind::brick: return part_young(m_, m_.bricks.part[k]) > 0.0;
+      case ElementKind::tetra: return part_young(m_, m_.tetras.part[k]) > 0.0;
+    }
+    return false;
+  }
+
+  std::string corners(const Segment& s) const {
+    return s.nodes[2] == s.nodes[3] ? fmt::format("({} {} {})", id_of(s.nodes[0]), id_of(s.nodes[1]), id_of(s.nodes[2]))
+                                    : fmt::format("({} {} {} {})", id_of(s.nodes[0]), id_of(s.nodes[1]), id_of(s.nodes[2]), id_of(s.nodes[3]));
+  }
+
+  void check_surface(const Interface& i, Index index, bool stiffness_given) {
+    if (index == no_index) return;
+    const Surface& s = surface(index);
+    if (s.segments.empty()) {
+      d_.error("model.empty_set", i.place, fmt::format("surface {} has no segment; nothing can touch it", s.id));
+      return;
+    }
+    std::vector<std::string> flat, soft;
+    for (const Segment& segment : s.segments) {
+      const Vec3 a = m_.node_x[static_cast<std::size_t>(segment.nodes[0])];
+      double size = 0.0;
+      for (const Index n : segment.nodes) size = std::max(size, squared_norm(m_.node_x[static_cast<std::size_t>(n)] - a));
+      // Rounding alone leaves about 1e-16 of the square of the size; a face this thin has no usable normal.
+      if (!(norm(face_area(m_, segment.nodes)) > 1e-12 * size)) flat.push_back(corners(segment));
+      if (!stiffness_given && !has_stiffness(segment)) soft.push_back(corners(segment));
+    }
+    if (!flat.empty()) {
+      d_.error("model.zero_area", i.place,
+               fmt::format("surface {} has {} without area: nodes {}; a segment needs three nodes that are not on one line", s.id,
+                           plural(flat.size(), "segment", "segments"), list(flat)));
+    }
+    if (soft.size() == s.segments.size()) {
+      d_.error("model.no_stiffness", i.place,
+               fmt::format("no segment of surface {} has an element with stiffness behind it, so nothing could push back; "
+                           "segments must be faces of shells or solids with E > 0 (and a thickness)", s.id));
+    } else if (!soft.empty()) {
+      d_.warning("model.no_stiffness", i.place,
+                 fmt::format("surface {} has {} with no stiffness behind: nodes {}; nothing pushes back there", s.id,
+                             plural(soft.size(), "segment", "segments"), list(soft)));
+    }
+  }
+
+  void check_two_sides(const Interface& i, const InterfaceType3& t) {
+    if (t.surface_1 == no_index || t.surface_2 == no_index || surface(t.surface_1).id == surface(t.surface_2).id) return;
+    const std::vector<Index> first = nodes_of(t.surface_1), second = nodes_of(t.surface_2);
+    std::vector<Index> shared;
+    std::set_intersection(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(shared));
+    if (shared.empty()) return;
+    d_.error("model.shared_node", i.place,
+             fmt::format("{} on both surfaces ({} and {}): {}; a node may belong to one of them only: separate the meshes, or use /INTER/TYPE7",
+                         shared.size() == 1 ? "1 node is" : fmt::format("{} nodes are", shared.size()), surface(t.surface_1).id,
+                         surface(t.surface_2).id, list(ids_of(shared))));
+  }
+
+  void check_nodes(const Interface& i, const std::vector<Index>& nodes, Index main) {
+    if (nodes.empty() && !d_.has_errors()) {
+      d_.error("model.empty_set", i.place, "the group of secondary nodes (grnd_IDs) is empty; name the nodes that can touch the surface");
+    }
+    std::vector<Index> massless;
+    const std::set<Index> held = held_nodes();
+    for (const Index n : nodes) {
+      if (mass_[static_cast<std::size_t>(n)] <= 0.0 && !held.contains(n)) massless.push_back(n);
+    }
+    if (!massless.empty()) {
+      d_.error("model.no_mass", i.place,
+               fmt::format("{} no mass and cannot be held by contact: {}; secondary nodes must belong to elements with mass, or get one by /ADMAS",
+                           massless.size() == 1 ? "1 secondary node has" : fmt::format("{} secondary nodes have", massless.size()), list(ids_of(massless))));
+    }
+    if (main == no_index) return;
+    const std::vector<Index> on_main = nodes_of(main);
+    std::vector<Index> shared;
+    std::set_intersection(nodes.begin(), nodes.end(), on_main.begin(), on_main.end(), std::back_inserter(shared));
+    if (shared.empty()) return;
+    d_.warning("model.shared_node", i.place,
+               fmt::format("{} also on the main surface {}: {}; a node cannot touch its own segment, take it out of the group",
+                           shared.size() == 1 ? "1 secondary node is" : fmt::format("{} secondary nodes are", shared.size()), surface(main).id,
+                           list(ids_of(shared))));
+  }
+
+  // ---- rigid bodies, motions, loads ---------------------------------------------------------------------------------
+
+  /// Nodes whose motion comes from a rigid body.
+  std::set<Index> held_nodes() const {
+    std::set<Index> held;
+    for (const RigidBody& b : m_.rigid_bodies) {
+      held.insert(b.nodes.begin(), b.nodes.end());
+      held.insert(b.main);
+    }
+    return held;
+  }
+
+  void rigid_bodies() {
+    std::map<Index, Id> owner;  // node -> body
+    for (const RigidBody& b : m_.rigid_bodies) {
+      std::map<Id, std::vector<Index>> shared;
+      std::vector<Index> all = b.nodes;
+      if (b.main != no_index) all.push_back(b.main);
+      std::sort(all.begin(), all.end());
+      for (const Index n : all) {
+        const auto [found, inserted] = owner.emplace(n, b.id);
+        if (!inserted && found->second != b.id) shared[found->second].push_back(n);
+      }
+      for (const auto& [other, nodes] : shared) {
+        d_.error("model.shared_node", place("/RBODY", b.id),
+                 fmt::format("{} also to rigid body {}: {}; a node can follow one body only",
+                             nodes.size() == 1 ? "1 node belongs" : fmt::format("{} nodes belong", nodes.size()), other, list(ids_of(nodes))));
+      }
+      double mass = b.mass;
+      for (const Index n : all) mass += mass_[static_cast<std::size_t>(n)];
+      if (!all.empty() && mass <= 0.0) {
+        d_.error("model.no_mass", place("/RBODY", b.id), "the rigid body has no mass; give one in the field Mass, or hold nodes of elements that have mass");
+      }
+    }
+  }
+
+  static std::string_view name_of(ImposedMotion::Kind kind) {
+    return kind == ImposedMotion::Kind::velocity ? "/IMPVEL" : kind == ImposedMotion::Kind::displacement ? "/IMPDISP" : "/IMPACC";
+  }
+
+  void motions() {
+    std::set<Index> secondary;
+    for (const RigidBody& b : m_.rigid_bodies) {
+      if (b.sensor == no_index && b.active) secondary.insert(b.nodes.begin(), b.nodes.end());
+    }
+    std::map<std::tuple<Index, int, Index>, const ImposedMotion*> imposed;  // node, direction, skew
+    for (const ImposedMotion& motion : m_.imposed_motions) {
+      std::vector<Index> held, twice;
+      const ImposedMotion* other = nullptr;
+      for (const Index n : motion.nodes) {
+        if (secondary.contains(n)) held.push_back(n);
+        const auto [found, inserted] = imposed.emplace(std::tuple{n, motion.direction, motion.skew}, &motion);
+        if (inserted) continue;
+        const ImposedMotion& o = *found->second;
+        if (o.t_start >= motion.t_stop || motion.t_start >= o.t_stop) continue;
+        other = &o;
+        twice.push_back(n);
+      }
+      const std::string_view name = name_of(motion.kind);
+      if (!held.empty()) {
+        d_.warning("model.motion_of_rigid_body", place(name, motion.id),
+                   fmt::format("{} of a rigid body and {} it: {}; impose the motion on the main node",
+                               held.size() == 1 ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", held.size()),
+                               held.size() == 1 ? "follows" : "follow", list(ids_of(held))));
+      }
+      if (other != nullptr) {
+        d_.warning("model.motion_twice", place(name, motion.id),
+                   fmt::format("{}/{} imposes the same direction at the same time on {}: {}; the last one counts, keep one of them", name_of(other->kind),
+                               other->id, plural(twice.size(), "node", "nodes"), list(ids_of(twice))));
+      }
+    }
+  }
+
+  void loads_on_massless_nodes() {
+    const std::set<Index> held = held_nodes();
+    const auto check = [&](std::string_view keyword, Id id, const std::vector<Index>& nodes) {
+      std::vector<Index> massless;
+      for (const Index n : nodes) {
+        if (mass_[static_cast<std::size_t>(n)] <= 0.0 && !held.contains(n)) massless.push_back(n);
+      }
+      if (massless.empty()) return;
+      d_.error("model.no_mass", place(keyword, id),
+               fmt::format("{} loaded but has no mass: {}; load nodes of elements with mass or of a rigid body, or give mass by /ADMAS",
+                           massless.size() == 1 ? "1 node is" : fmt::format("each of {} nodes is", massless.size()), list(ids_of(massless))));
+    };
+    for (const ConcentratedLoad& l : m_.concentrated_loads) {
+      if (l.direction < 3) check("/CLOAD", l.id, l.nodes);
+    }
+    for (const PressureLoad& l : m_.pressure_loads) {
+      std::vector<Index> nodes;
+      for (const auto& segment : l.segments) nodes.insert(nodes.end(), segment.begin(), segment.end());
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      check("/PLOAD", l.id, nodes);
+    }
+  }
+
+  void unused_functions() {
+    std::vector<bool> used(m_.functions.size(), false);
+    const auto mark = [&](const auto& items) {
+      for (const auto& item : items) {
+        if (item.function != no_index) used[static_cast<std::size_t>(item.function)] = true;
+      }
+    };
+    mark(m_.imposed_motions);
+    mark(m_.concentrated_loads);
+    mark(m_.pressure_loads);
+    mark(m_.gravities);
+    std::vector<Id> unused;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i]) unused.push_back(m_.functions[i].id);
+    }
+    if (!unused.empty()) {
+      d_.note("model.unused_function", {}, fmt::format("nothing uses {}: {}", unused.size() == 1 ? "this /FUNCT" : "these /FUNCT", list(unused)));
+    }
+  }
+
+  const Model& m_;
+  Diagnostics& d_;
+  Context& c_;
+  std::vector<double> mass_;
+};
+
+}  // namespace
+
+void validate(Context& c) { Validator(c).run(); }
+
+}  // namespace abut::model
