@@ -19,12 +19,15 @@ struct Profile {
   enum class HourglassEnergy { trapezoidal, end_of_step };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
+  /// Spin of TETRA4: the skew part of the velocity gradient, or with the reference's symmetric second-order terms.
+  enum class TetraSpin { exact, reference };
 
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
+  TetraSpin tetra_spin = TetraSpin::exact;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -36,6 +39,7 @@ struct Profile {
     p.rotational_hourglass = RotationalHourglass::reference;
     p.hourglass_energy = HourglassEnergy::end_of_step;
     p.solid_sound_speed = SolidSoundSpeed::literal;
+    p.tetra_spin = TetraSpin::reference;
     p.reference_contact = true;
     return p;
   }
