@@ -23,6 +23,8 @@ struct Profile {
   /// boundary conditions of secondary nodes without any effect; or rotation to second order, gyroscopic moment at n - 1/2
   /// and half-step velocities of secondary nodes that their boundary conditions set to zero.
   enum class RigidBody { conserving, reference };
+  /// Spin of TETRA4: the skew part of the velocity gradient, or with the reference's symmetric second-order terms.
+  enum class TetraSpin { exact, reference };
 
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
@@ -30,6 +32,7 @@ struct Profile {
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
+  TetraSpin tetra_spin = TetraSpin::exact;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -42,6 +45,7 @@ struct Profile {
     p.hourglass_energy = HourglassEnergy::end_of_step;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
+    p.tetra_spin = TetraSpin::reference;
     p.reference_contact = true;
     return p;
   }

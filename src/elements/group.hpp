@@ -39,6 +39,7 @@ struct GroupResult {
   Index step_element = no_index;    ///< element (group-local) that gives it
   double internal_energy = 0.0;     ///< of the group, without hourglass
   double hourglass_energy = 0.0;
+  double removed_energy = 0.0;      ///< internal + hourglass energy that all elements deleted so far held; not in the two above
   Index removed = 0;                ///< elements deleted in this cycle
   Index bad_element = no_index;     ///< first element with a non-finite result or a negative volume, group-local
 };

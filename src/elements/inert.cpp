@@ -1,0 +1,99 @@
+#include "elements/inert.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace abut::elements {
+
+namespace {
+
+class InertGroup final : public Group {
+ public:
+  InertGroup(const GroupInput& in, InertElements data) : data_(std::move(data)), live_(in.elements.size(), 1) {
+    part_ = in.part;
+    elements_ = in.elements;
+    layout_.nodes_per_element = data_.nodes_per_element;
+    layout_.components = data_.inertia.empty() ? 4 : 8;
+    layout_.blocks = (size() + lanes - 1) / lanes;
+  }
+
+  [[nodiscard]] Family family() const override { return Family::inert; }
+  [[nodiscard]] model::ElementKind kind() const override { return data_.kind; }
+  [[nodiscard]] std::span<const Index> nodes(Index element) const override {
+    const auto n = static_cast<std::size_t>(data_.nodes_per_element);
+    return {data_.nodes.data() + static_cast<std::size_t>(element) * n, n};
+  }
+  void initial_masses(std::span<double> slots) const override {
+    clear(slots);
+    for (Index e = 0; e < size(); ++e) {
+      for (int k = 0; k < data_.nodes_per_element; ++k) {
+        slots[layout_.at(e, k, 0)] = data_.mass[index(e, k)];
+        if (!data_.inertia.empty()) slots[layout_.at(e, k, 1)] = data_.inertia[index(e, k)];
+      }
+    }
+  }
+  GroupResult step(const StepInput& /*in*/, std::span<double> slots, parallel::ThreadPool& /*pool*/) override {
+    clear(slots);
+    return {};
+  }
+  void set_rigid(std::span<const std::uint8_t> rigid) override {
+    for (std::size_t e = 0; e < live_.size(); ++e) live_[e] = rigid[e] == 0 ? 1 : 0;
+  }
+  [[nodiscard]] ElementOutput output(Index element) const override {
+    ElementOutput out;
+    out.thickness = thickness(element);
+    return out;
+  }
+  [[nodiscard]] bool active(Index /*element*/) const override { return true; }
+  [[nodiscard]] double thickness(Index element) const override {
+    return data_.thickness.empty() ? 0.0 : data_.thickness[static_cast<std::size_t>(element)];
+  }
+  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const override {
+    PartSums sums;
+    for (Index e = 0; e < size(); ++e) {
+      if (live_[static_cast<std::size_t>(e)] == 0) continue;
+      for (int k = 0; k < data_.nodes_per_element; ++k) {
+        const double m = data_.mass[index(e, k)];
+        const auto node = static_cast<std::size_t>(data_.nodes[index(e, k)]);
+        sums.mass += m;
+        sums.kinetic_energy += 0.5 * m * squared_norm(v[node]);
+        sums.momentum += m * v[node];
+        if (!data_.inertia.empty()) sums.rotational_energy += 0.5 * data_.inertia[index(e, k)] * squared_norm(w[node]);
+      }
+    }
+    return sums;
+  }
+  [[nodiscard]] double element_mass(Index element) const override {
+    double m = 0.0;
+    for (int k = 0; k < data_.nodes_per_element; ++k) m += data_.mass[index(element, k)];
+    return m;
+  }
+  [[nodiscard]] double element_energy(Index /*element*/) const override { return 0.0; }
+  [[nodiscard]] std::vector<std::span<double>> history() override { return {}; }
+
+ private:
+  [[nodiscard]] std::size_t index(Index e, int k) const {
+    return static_cast<std::size_t>(e) * static_cast<std::size_t>(data_.nodes_per_element) + static_cast<std::size_t>(k);
+  }
+  void clear(std::span<double> slots) const {
+    std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
+  }
+
+  InertElements data_;
+  std::vector<std::uint8_t> live_;
+};
+
+}  // namespace
+
+bool is_void(const GroupInput& in) {
+  const auto& m = *in.model;
+  const auto& part = m.parts[static_cast<std::size_t>(in.part)];
+  return std::holds_alternative<model::LawVoid>(m.materials[static_cast<std::size_t>(part.material)].law);
+}
+
+std::unique_ptr<Group> make_inert(const GroupInput& in, InertElements elements) {
+  return std::make_unique<InertGroup>(in, std::move(elements));
+}
+
+}  // namespace abut::elements

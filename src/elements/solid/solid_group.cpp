@@ -1,0 +1,299 @@
+#include "elements/solid/solid_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <variant>
+
+#include "core/diagnostic.hpp"
+
+namespace abut::elements {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& code, const std::string& keyword, const std::string& field, const std::string& message) {
+  Diagnostics d;
+  Place place;
+  place.keyword = keyword;
+  place.field = field;
+  d.error(code, place, message);
+  throw InputError(d);
+}
+
+/// Constants of the material; sound speed as the profile says (numerics.md 0.4).
+void set_material(SolidConfig& c, const model::Material& material, const model::Units& units, const Profile& profile) {
+  double young = 0.0, poisson = 0.0;
+  const std::string keyword = "/MAT/" + std::to_string(material.id);
+  if (const auto* elastic = std::get_if<model::LawElastic>(&material.law)) {
+    young = elastic->young;
+    poisson = elastic->poisson;
+    c.law = 1;
+  } else if (const auto* jc = std::get_if<model::LawJohnsonCook>(&material.law)) {
+    young = jc->young;
+    poisson = jc->poisson;
+    c.law = 2;
+    c.p_min = jc->p_min;
+    if (jc->kinematic != 0.0) {
+      refuse("elements.solid_kinematic_hardening", keyword, "C_hard",
+             "kinematic hardening is available for shells only; set C_hard to 0 for solids");
+    }
+    materials::JohnsonCook& p = c.plastic;
+    p.a = jc->a;
+    p.b = jc->b;
+    p.n = jc->n;
+    p.eps_max = jc->eps_max;
+    p.sigma_max = jc->sigma_max;
+    p.c = jc->c;
+    p.eps_rate_0 = jc->eps_rate_0;
+    p.cap_scaled = jc->icc == 2 ? 0 : 1;
+    p.rate_measure = jc->vp;
+    // The plastic rate is always filtered with 10 kHz (5.2.3); work time units are units.time seconds.
+    p.filter = 2.0 * std::numbers::pi * (jc->vp == 1 ? 1e4 * units.time : jc->cutoff);
+    p.m = jc->m;
+    p.t_melt = jc->t_melt;
+    p.rho_cp = jc->rho_cp;
+    p.t_max = jc->t_max;
+    p.t_ref = std::min(jc->t_ref, jc->t_max);
+  } else {
+    refuse("elements.solid_law", keyword, "", "this law has no solid stress update; LAW0 parts form inert groups");
+  }
+  c.rho_0 = material.reference_density > 0.0 ? material.reference_density : material.density;
+  c.shear = 0.5 * young / (1.0 + poisson);
+  c.bulk = young / (3.0 * (1.0 - 2.0 * poisson));
+  const double third = profile.solid_sound_speed == Profile::SolidSoundSpeed::literal ? 1.333 : 4.0 / 3.0;
+  c.sound = std::sqrt((c.bulk + third * c.shear) / c.rho_0);
+}
+
+}  // namespace
+
+double inverse_cube_root(double v) {
+  int exponent = 0;
+  const double m = std::frexp(v, &exponent);  // v = m 2^exponent, m in [1/2, 1)
+  const int third = exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
+  const double r = std::ldexp(m, exponent - 3 * third);  // in [1/2, 4)
+  double y = 0.8;
+  for (int i = 0; i < 60; ++i) y = y * (4.0 - r * y * y * y) * (1.0 / 3.0);
+  return std::ldexp(y, -third);
+}
+
+SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel kernel)
+    : nodes_per_element_(nodes_per_element), kernel_(kernel) {
+  part_ = in.part;
+  elements_ = in.elements;
+  const model::Model& m = *in.model;
+  const model::Part& part = m.parts[static_cast<std::size_t>(in.part)];
+  const model::Material& material = m.materials[static_cast<std::size_t>(part.material)];
+  const model::Property& property = m.properties[static_cast<std::size_t>(part.property)];
+  const std::string keyword = "/PROP/" + std::to_string(property.id);
+  const auto* solid = std::get_if<model::SolidProperty>(&property.data);
+  if (solid == nullptr) refuse("elements.solid_property", keyword, "", "solid elements need a /PROP/SOLID");
+  if (solid->ismstr != 1 && solid->ismstr != 2 && solid->ismstr != 4) {
+    refuse("elements.solid_ismstr", keyword, "Ismstr", "use 1 (small strain), 2 or 4 (full geometric nonlinearity)");
+  }
+  set_material(config_, material, m.units, in.profile);
+  density_ = material.density;
+  config_.qa_squared = solid->qa * solid->qa;
+  config_.qb = solid->qb;
+  config_.hourglass = solid->h;
+  config_.small_strain = solid->ismstr == 1;
+  config_.reference_step = in.profile.element_step == Profile::ElementStep::reference;
+  config_.trapezoidal_hourglass = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;
+  config_.literal_spin = in.profile.tetra_spin == Profile::TetraSpin::reference;
+  reference_part_mass_ = config_.small_strain && config_.reference_step;
+  config_.step_scale = in.step_scale;
+  config_.step_minimum = in.step_minimum;
+  config_.remove_small_step = in.step_action == model::StepControl::Action::remove;
+}
+
+double& SolidGroup::at(Index element, int field) {
+  const auto e = static_cast<std::size_t>(element);
+  return state_[((e / lanes) * static_cast<std::size_t>(config_.fields) + static_cast<std::size_t>(field)) * lanes + e % lanes];
+}
+
+double SolidGroup::at(Index element, int field) const {
+  const auto e = static_cast<std::size_t>(element);
+  return state_[((e / lanes) * static_cast<std::size_t>(config_.fields) + static_cast<std::size_t>(field)) * lanes + e % lanes];
+}
+
+void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share_fields) {
+  SolidConfig& c = config_;
+  c.fields = common_fields;
+  const auto reserve_fields = [&c](bool wanted, int count, int& first) {
+    first = c.fields;
+    if (wanted) c.fields += count;
+  };
+  reserve_fields(c.law == 2, materials::johnson_cook_fields, c.law_field);
+  reserve_fields(c.trapezoidal_hourglass && share_fields == 0, hourglass_force_fields, c.force_field);
+  reserve_fields(c.corotational, frame_fields, c.frame_field);
+  reserve_fields(c.small_strain, frozen_fields, c.frozen_field);
+  reserve_fields(share_fields > 0, share_fields, c.share_field);
+
+  const Index count = size();
+  layout_.nodes_per_element = nodes_per_element_;
+  layout_.components = 4;
+  layout_.blocks = (count + lanes - 1) / lanes;
+  const auto padded = static_cast<std::size_t>(layout_.blocks) * lanes;
+  const auto n = static_cast<std::size_t>(nodes_per_element_);
+  block_nodes_.assign(padded * n, 0);
+  state_.assign(padded * static_cast<std::size_t>(c.fields), 0.0);
+  chunks_.resize((static_cast<std::size_t>(layout_.blocks) + blocks_per_chunk - 1) / blocks_per_chunk);
+
+  std::vector<Vec3> corners(n);
+  const auto point = materials::initial_state(c.plastic);
+  for (std::size_t slot = 0; slot < padded; ++slot) {
+    // Padding repeats the last element, switched off, so that its arithmetic stays harmless.
+    const std::size_t e = std::min(slot, static_cast<std::size_t>(count) - 1);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Index node = element_nodes_[e * n + k];
+      corners[k] = x[static_cast<std::size_t>(node)];
+      block_nodes_[((slot / lanes) * n + k) * lanes + slot % lanes] = node;
+    }
+    const SolidGeometry g = geometry(corners);
+    const auto id = static_cast<Index>(slot);
+    const double volume = g.volume > 0.0 ? g.volume : 1e-30;
+    const double mass = density_ * volume;
+    at(id, f_volume) = volume;
+    at(id, f_inverse_length) = inverse_cube_root(volume);
+    at(id, f_density) = density_;
+    at(id, f_pressure) = std::max(c.p_min, c.bulk * (density_ / c.rho_0 - 1.0));
+    at(id, f_mass) = mass;
+    at(id, f_inverse_mass) = 1.0 / mass;
+    const double on = slot < static_cast<std::size_t>(count) ? 1.0 : 0.0;
+    at(id, f_off) = on;
+    at(id, f_live) = on;
+    if (c.law == 2) {
+      const double values[] = {point.strain, point.yield, point.slope, point.rate, point.temperature};
+      for (int i = 0; i < materials::johnson_cook_fields; ++i) at(id, c.law_field + i) = values[i];
+    }
+    if (c.small_strain) {
+      for (int i = 0; i < frozen_fields; ++i) at(id, c.frozen_field + i) = g.frozen[static_cast<std::size_t>(i)];
+    }
+    if (share_fields > 0) {
+      for (int i = 0; i < nodes_per_element_; ++i) {
+        const double share = g.mass_share[static_cast<std::size_t>(i)];
+        at(id, c.share_field + i) = share;
+        at(id, c.share_field + nodes_per_element_ + i) = 1.0 / share;
+      }
+    }
+  }
+}
+
+std::span<const Index> SolidGroup::nodes(Index element) const {
+  const auto n = static_cast<std::size_t>(nodes_per_element_);
+  return {element_nodes_.data() + static_cast<std::size_t>(element) * n, n};
+}
+
+void SolidGroup::initial_masses(std::span<double> slots) const {
+  std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
+  for (Index e = 0; e < size(); ++e) {
+    for (int k = 0; k < nodes_per_element_; ++k) {
+      const double share = nodes_per_element_ == 4 ? at(e, config_.share_field + k) : 0.125;
+      slots[layout_.at(e, k, 0)] = share * at(e, f_mass);
+    }
+  }
+}
+
+GroupResult SolidGroup::step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) {
+  SolidTask base;
+  base.config = &config_;
+  base.x = &in.x->x;
+  base.v = &in.v->x;
+  base.nodes = block_nodes_.data();
+  base.state = state_.data();
+  base.slots = slots.data() + layout_.offset;
+  base.dt = in.dt;
+  const SolidTask* shared = &base;
+  pool.for_ranges(chunks_.size(), 1, [this, shared](std::size_t begin, std::size_t end) {
+    SolidTask task = *shared;
+    for (std::size_t i = begin; i < end; ++i) {
+      task.first = static_cast<std::int32_t>(i) * blocks_per_chunk;
+      task.last = std::min(task.first + blocks_per_chunk, layout_.blocks);
+      task.chunk = &chunks_[i];
+      kernel_(task);
+    }
+  });
+
+  GroupResult result;
+  double inverse_step = 0.0;
+  for (const SolidChunk& chunk : chunks_) {
+    result.internal_energy += chunk.energy;
+    result.hourglass_energy += chunk.hourglass;
+    result.removed_energy += chunk.removed_energy;
+    result.removed += chunk.removed;
+    if (chunk.inverse_step > inverse_step) {
+      inverse_step = chunk.inverse_step;
+      result.step_element = chunk.step_element;
+    }
+    if (result.bad_element == no_index) result.bad_element = chunk.bad_element;
+  }
+  if (inverse_step > 0.0) result.step = config_.step_scale / inverse_step;
+  return result;
+}
+
+void SolidGroup::set_rigid(std::span<const std::uint8_t> rigid) {
+  for (Index e = 0; e < size(); ++e) at(e, f_live) = rigid[static_cast<std::size_t>(e)] != 0 ? 0.0 : at(e, f_off);
+}
+
+ElementOutput SolidGroup::output(Index element) const {
+  ElementOutput out;
+  out.off = at(element, f_off);
+  out.internal_energy = at(element, f_energy);
+  out.hourglass_energy = at(element, f_hourglass);
+  out.density = at(element, f_density);
+  out.volume = at(element, f_mass) / out.density;
+  out.pressure = at(element, f_pressure);
+  out.bulk_viscosity = at(element, f_viscosity);
+  if (config_.law == 2) out.plastic_min = out.plastic_max = at(element, config_.law_field);
+  const double s[6] = {at(element, f_sxx), at(element, f_syy), at(element, f_szz), at(element, f_sxy), at(element, f_syz), at(element, f_szx)};
+  out.von_mises = std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  double t[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
+  if (config_.corotational && at(element, config_.frame_field) * at(element, config_.frame_field) +
+                                  at(element, config_.frame_field + 1) * at(element, config_.frame_field + 1) +
+                                  at(element, config_.frame_field + 2) * at(element, config_.frame_field + 2) > 0.0) {
+    double global[3][3] = {};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        for (int a = 0; a < 3; ++a) {
+          for (int b = 0; b < 3; ++b) {
+            global[i][j] += at(element, config_.frame_field + 3 * a + i) * t[a][b] * at(element, config_.frame_field + 3 * b + j);
+          }
+        }
+      }
+    }
+    std::copy(&global[0][0], &global[0][0] + 9, &t[0][0]);
+  }
+  out.stress = {t[0][0] - out.pressure, t[1][1] - out.pressure, t[2][2] - out.pressure, t[0][1], t[1][2], t[2][0]};
+  return out;
+}
+
+bool SolidGroup::active(Index element) const { return at(element, f_off) > 0.0; }
+
+PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> /*w*/) const {
+  PartSums sums;
+  const double share = 1.0 / nodes_per_element_;
+  for (Index e = 0; e < size(); ++e) {
+    if (!(at(e, f_live) > 0.0)) continue;
+    double mass = at(e, f_mass);
+    if (reference_part_mass_) mass = at(e, f_density) * at(e, f_volume);
+    Vec3 total;
+    double squares = 0.0;
+    for (const Index node : nodes(e)) {
+      const Vec3& u = v[static_cast<std::size_t>(node)];
+      total += u;
+      squares += squared_norm(u);
+    }
+    sums.mass += mass;
+    sums.kinetic_energy += 0.5 * share * mass * squares;
+    sums.momentum += (share * mass) * total;
+  }
+  return sums;
+}
+
+double SolidGroup::element_mass(Index element) const { return at(element, f_mass); }
+
+double SolidGroup::element_energy(Index element) const { return at(element, f_energy) + at(element, f_hourglass); }
+
+std::vector<std::span<double>> SolidGroup::history() { return {std::span<double>(state_)}; }
+
+}  // namespace abut::elements

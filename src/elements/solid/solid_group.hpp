@@ -1,0 +1,68 @@
+// What brick and tetra groups share: blocks of state, the chunked step, output and sums. The families add geometry and kernel.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "elements/group.hpp"
+#include "elements/solid/solid_kernels.hpp"
+#include "elements/solid/solid_layout.hpp"
+
+namespace abut::elements {
+
+/// Initial geometry of one element, by its family.
+struct SolidGeometry {
+  double volume = 0.0;               ///< positive for a valid element
+  std::vector<double> frozen;        ///< geometry of cycle 0 for small strain, in the element frame if co-rotational
+  std::vector<double> mass_share;    ///< m_I/m_e per node
+};
+
+class SolidGroup : public Group {
+ public:
+  [[nodiscard]] std::span<const Index> nodes(Index element) const override;
+  void initial_masses(std::span<double> slots) const override;
+  GroupResult step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) override;
+  /// @param rigid one flag per group-local element
+  void set_rigid(std::span<const std::uint8_t> rigid) override;
+  [[nodiscard]] ElementOutput output(Index element) const override;
+  [[nodiscard]] bool active(Index element) const override;
+  [[nodiscard]] double thickness(Index /*element*/) const override { return 0.0; }
+  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const override;
+  [[nodiscard]] double element_mass(Index element) const override;
+  [[nodiscard]] double element_energy(Index element) const override;
+  [[nodiscard]] std::vector<std::span<double>> history() override;
+
+  /// Runs another kernel from now on (tests compare instruction sets with it).
+  void use_kernel(SolidKernel kernel) { kernel_ = kernel; }
+
+ protected:
+  /// @throws InputError when the part's law or property has a choice that these elements do not have
+  SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel kernel);
+
+  /// Fills state and masses; `element_nodes_` and `config_` are set. Called by the families' constructors.
+  /// @param frozen_fields fields that small strain needs; @param share_fields 0, or twice the nodes per element
+  void set_up(const std::vector<Vec3>& x, int frozen_fields, int share_fields);
+  [[nodiscard]] virtual SolidGeometry geometry(std::span<const Vec3> corners) const = 0;
+
+  [[nodiscard]] double& at(Index element, int field);
+  [[nodiscard]] double at(Index element, int field) const;
+
+  SolidConfig config_;
+  double density_ = 0.0;             ///< rho_i, gives the masses
+  bool reference_part_mass_ = false; ///< small strain: part sums with rho^n V_0 (4.3.4)
+  int nodes_per_element_ = 0;
+  std::vector<Index> element_nodes_; ///< #E by nodes_per_element, right-handed
+
+ private:
+  SolidKernel kernel_ = nullptr;
+  std::vector<std::int32_t> block_nodes_;
+  std::vector<double> state_;
+  std::vector<double> mass_share_;   ///< #E by nodes_per_element; empty = equal
+  std::vector<SolidChunk> chunks_;
+};
+
+/// V^(-1/3) for V > 0, without libm.
+[[nodiscard]] double inverse_cube_root(double v);
+
+}  // namespace abut::elements

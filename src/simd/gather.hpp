@@ -1,0 +1,62 @@
+// Gathering node vectors (#N by 3, 24 bytes apart) into number types: the first visible step of every element kernel.
+//
+// A lane's (x, y) and (y, z) are read as two 16-byte pieces, so nothing outside the node's own 24 bytes is touched; pieces
+// of two lanes are joined while they are loaded and one shuffle per component and register does the rest.
+#pragma once
+
+#include <cstdint>
+
+#include "simd/pack.hpp"
+
+namespace abut::simd {
+
+template <class R>
+struct Triple {
+  R x, y, z;
+};
+
+typedef double Pair __attribute__((vector_size(16)));
+
+ABUT_INLINE Pair load_pair(const double* p) {
+  Pair a;
+  __builtin_memcpy(&a, p, sizeof(a));
+  return a;
+}
+
+/// Vectors `index[0..W)` of `array` (three doubles each).
+ABUT_INLINE Triple<double> gather3(const double* array, const std::int32_t* index, double /*type*/) {
+  const double* p = array + 3 * static_cast<std::ptrdiff_t>(index[0]);
+  return {p[0], p[1], p[2]};
+}
+
+ABUT_INLINE Triple<Pack<2>> gather3(const double* array, const std::int32_t* index, Pack<2> /*type*/) {
+  const double* p = array + 3 * static_cast<std::ptrdiff_t>(index[0]);
+  const double* q = array + 3 * static_cast<std::ptrdiff_t>(index[1]);
+  const Pair a = load_pair(p), b = load_pair(q);
+  const Pair c = load_pair(p + 1), d = load_pair(q + 1);
+  return {Pack<2>(__builtin_shufflevector(a, b, 0, 2)), Pack<2>(__builtin_shufflevector(a, b, 1, 3)),
+          Pack<2>(__builtin_shufflevector(c, d, 1, 3))};
+}
+
+ABUT_INLINE Triple<Pack<4>> gather3(const double* array, const std::int32_t* index, Pack<4> /*type*/) {
+  const double* p0 = array + 3 * static_cast<std::ptrdiff_t>(index[0]);
+  const double* p1 = array + 3 * static_cast<std::ptrdiff_t>(index[1]);
+  const double* p2 = array + 3 * static_cast<std::ptrdiff_t>(index[2]);
+  const double* p3 = array + 3 * static_cast<std::ptrdiff_t>(index[3]);
+  const auto a = __builtin_shufflevector(load_pair(p0), load_pair(p2), 0, 1, 2, 3);
+  const auto b = __builtin_shufflevector(load_pair(p1), load_pair(p3), 0, 1, 2, 3);
+  const auto c = __builtin_shufflevector(load_pair(p0 + 1), load_pair(p2 + 1), 0, 1, 2, 3);
+  const auto d = __builtin_shufflevector(load_pair(p1 + 1), load_pair(p3 + 1), 0, 1, 2, 3);
+  return {Pack<4>(__builtin_shufflevector(a, b, 0, 4, 2, 6)), Pack<4>(__builtin_shufflevector(a, b, 1, 5, 3, 7)),
+          Pack<4>(__builtin_shufflevector(c, d, 1, 5, 3, 7))};
+}
+
+ABUT_INLINE Triple<Pack<8>> gather3(const double* array, const std::int32_t* index, Pack<8> /*type*/) {
+  const Triple<Pack<4>> a = gather3(array, index, Pack<4>());
+  const Triple<Pack<4>> b = gather3(array, index + 4, Pack<4>());
+  return {Pack<8>(__builtin_shufflevector(a.x.r, b.x.r, 0, 1, 2, 3, 4, 5, 6, 7)),
+          Pack<8>(__builtin_shufflevector(a.y.r, b.y.r, 0, 1, 2, 3, 4, 5, 6, 7)),
+          Pack<8>(__builtin_shufflevector(a.z.r, b.z.r, 0, 1, 2, 3, 4, 5, 6, 7))};
+}
+
+}  // namespace abut::simd
