@@ -137,6 +137,55 @@ class Summary(Tree):
         self.assertEqual(run("scripts/summarise_run.py", self.root)[0], 1)
 
 
+class Documentation(Tree):
+    def setUp(self):
+        super().setUp()
+        self.write("docs/index.md", "# Start here\n[more](more.md#a-second-heading)\n")
+        self.write("docs/more.md", "# More\n## A second heading\n[Flanagan 1981]\n```\n[x](nowhere.md)\n```\n")
+        self.write("docs/references.bib", "@article{Flanagan1981, title = {x}}\n@article{Bridson2002, title = {x}}\n")
+        self.write("src/core/id.hpp", "// [Bridson et al. 2002; Flanagan 1981, eq. 3]\n")
+
+    def check(self):
+        return run("scripts/check_docs.py", self.root)
+
+    def test_a_clean_tree_passes(self):
+        self.assertEqual(self.check()[0], 0, self.check()[1])
+
+    def refused(self, name, text, words):
+        self.write(name, text)
+        status, output = self.check()
+        self.assertEqual(status, 1, output)
+        self.assertIn(words, output)
+
+    def test_a_broken_link(self):
+        self.refused("docs/more.md", "# More\n## A second heading\n[x](gone.md)\n", "docs/more.md:3: gone.md: no such file")
+
+    def test_a_broken_anchor(self):
+        self.refused("docs/more.md", "# More\n", "no such heading")
+
+    def test_a_page_that_nothing_links(self):
+        self.refused("docs/lost.md", "# Lost\n", "docs/lost.md: not reached")
+
+    def test_an_unknown_reference(self):
+        self.refused("src/core/id.hpp", "// [Flanagan 1981; Nobody 1999]\n", "src/core/id.hpp:1: [Nobody 1999] is not in")
+
+
+class StatementTable(unittest.TestCase):
+    def test_statements_are_found_where_tests_name_them(self):
+        sys.path.insert(0, str(ROOT / "tools"))
+        import statement_table
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "test_x.cpp"
+            path.write_text("// All of it is about T9.\n#include <x>\n\nstruct T5 {};\n\n// T7: shapes\nTEST(Shape, Aspect) {\n}\n\n"
+                            "TEST(Stiffness, T16_shell) {\n  // T13, T17..T18\n}\nTEST(Other, Nothing) { T2_like(); }\n")
+            found = statement_table.tests_of(path)
+            self.assertEqual(found[7], ["Shape.Aspect"])
+            for number in (13, 16, 17, 18):
+                self.assertEqual(found[number], ["Stiffness.T16_shell"], number)
+            self.assertEqual(len(found[9]), 1)
+            self.assertEqual(set(found), {7, 9, 13, 16, 17, 18})
+
+
 class PublicHeaders(Tree):
     def test_a_header_that_needs_another(self):
         self.assertEqual(run("scripts/check_public_headers.py", "c++", self.root)[0], 0)
