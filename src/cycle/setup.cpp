@@ -25,7 +25,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       slots_(assembly_.slot_count(), 0.0),
       curves_(model),
       axes_(model),
-      bodies_(model),
+      bodies_(model, options.profile),
       loads_(model, curves_, axes_),
       gravities_(model, curves_, axes_, bodies_),
       boundary_(model, axes_, bodies_),
