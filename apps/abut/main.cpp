@@ -1,1 +1,72 @@
-int main() { return 0; }
+// The command line of abut; no physics.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <limits>
+
+#include "commands.hpp"
+
+namespace {
+
+constexpr int wrong_usage = 2;
+
+constexpr const char* examples = R"(Examples:
+  abut run INT357_0000.rad                      run the deck into ./INT357
+  abut run deck_0000.rad -o out --threads 4     choose the folder and the threads
+  abut run deck_0000.rad --profile reference    with the reference program's rules, to compare results
+  abut check deck_0000.rad                      read, validate and summarise; nothing is written
+
+DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it. A run writes NAME.out (listing),
+NAME_th.csv (time history), NAME.pvd (animation, open it with ParaView) and run.json.
+Ctrl-C ends a run after its cycle with complete files.
+Exit status: 0 done, 1 the deck has errors or the run did not reach its end, 2 wrong usage.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace abut::app;
+  CLI::App app{"abut: explicit dynamics with two-surface contact, from Radioss decks"};
+  app.footer(examples);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", [] { return version_text(); });
+  const CLI::IsMember profiles({"standard", "reference"});
+  const CLI::IsMember laws({"stiffening", "constant"});
+
+  RunArguments run;
+  CLI::App* run_app = app.add_subcommand("run", "run a deck");
+  run_app->add_option("DECK", run.deck, "Starter deck NAME_0000.rad")->required();
+  run_app->add_option("-o,--output", run.output, "run folder (default: ./NAME)");
+  run_app->add_option("--threads", run.threads, "number of threads (default: all); results do not depend on it")
+      ->check(CLI::Range(1, 4096));
+  run_app->add_option("--profile", run.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
+  run_app->add_option("--interface-law", run.interface_law, "normal law of contacts with a gap: stiffening or constant (default: the profile's)")
+      ->check(laws);
+  run_app->add_option("--hash-every", run.hash_every, "hash the state every N cycles into run.json")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  run_app->add_flag("--timing", run.timing, "print the time spent in each phase");
+  run_app->add_flag("--quiet", run.quiet, "print nothing but warnings and errors");
+
+  CheckArguments check;
+  CLI::App* check_app = app.add_subcommand("check", "read and validate a deck, print a summary");
+  check_app->add_option("DECK", check.deck, "Starter deck NAME_0000.rad")->required();
+  check_app->add_option("--profile", check.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
+  check_app->add_flag("--json", check.json, "print JSON");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : wrong_usage;
+  } catch (const std::exception& e) {  // --version under an impossible ABUT_ISA
+    fmt::print(stderr, "abut: {}\n", e.what());
+    return 1;
+  }
+
+  try {
+    return run_app->parsed() ? run_command(run) : check_command(check);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "abut: {}\n", e.what());
+    return 1;
+  }
+}

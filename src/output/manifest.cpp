@@ -4,66 +4,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "output/element_lookup.hpp"
+#include "output/json.hpp"
 #include "output/summary.hpp"
 
 namespace abut::output {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Text of a JSON document; a deck may hold bytes that are not UTF-8 (titles of old decks), they become U+FFFD.
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::error: return "error";
-  }
-  return "error";
-}
-
-Json to_json(const Diagnostic& d) {
-  Json j{{"severity", severity_name(d.severity)}, {"code", d.code}, {"message", d.message}};
-  if (!d.place.file.empty()) j["file"] = d.place.file;
-  if (d.place.line > 0) j["line"] = d.place.line;
-  if (!d.place.keyword.empty()) j["keyword"] = d.place.keyword;
-  if (!d.place.field.empty()) j["field"] = d.place.field;
-  if (d.place.first_column > 0) j["columns"] = {d.place.first_column, d.place.last_column};
-  return j;
-}
-
-Json model_json(const cycle::Snapshot& first) {
-  const model::Model& m = *first.model;
-  Json j{{"name", m.name},
-         {"title", m.title},
-         {"units", {{"mass", m.units.mass_name}, {"length", m.units.length_name}, {"time", m.units.time_name}}},
-         {"nodes", m.node_count()},
-         {"shells", m.shells.size()},
-         {"sh3ns", m.sh3ns.size()},
-         {"bricks", m.bricks.size()},
-         {"tetras", m.tetras.size()}};
-  const std::vector<double> masses = part_masses(m, first.groups);
-  j["parts"] = Json::array();
-  for (std::size_t p = 0; p < m.parts.size(); ++p) {
-    j["parts"].push_back({{"id", m.parts[p].id}, {"title", m.parts[p].title}, {"mass", masses[p]}});
-  }
-  j["interfaces"] = Json::array();
-  for (const model::Interface& i : m.interfaces) {
-    j["interfaces"].push_back({{"id", i.id},
-                               {"title", i.title},
-                               {"type", interface_type(i)},
-                               {"stiffness_scale", i.stfac},
-                               {"friction", i.friction},
-                               {"gap", i.gap}});
-  }
-  j["t_end"] = m.controls.t_end;
-  return j;
-}
 
 Json energies_json(const state::Balance& b) {
   return {{"IE", b.ie}, {"HE", b.he}, {"KE", b.ke},     {"KER", b.ker}, {"CE", b.ce},           {"FW", b.fw},          {"DW", b.dw},
@@ -86,15 +34,14 @@ void Manifest::begin(const cycle::Snapshot& first) {
                    {"threads", info_.threads},
                    {"instruction_set", info_.instruction_set},
                    {"hash_every", info_.hash_every}};
-  j["model"] = model_json(first);
-  j["findings"] = Json::array();
-  for (const Diagnostic& d : info_.findings) j["findings"].push_back(to_json(d));
+  j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
+  j["findings"] = findings_json(info_.findings);
   j["files"] = {{"listing", folder_.listing().filename().string()},
                 {"history", folder_.history().filename().string()},
                 {"animation", folder_.animation_index().filename().string()}};
-  head_ = text_of(j);
+  head_ = json_text(j);
   j["outcome"] = {{"kind", "running"}};
-  write_atomically(folder_.manifest(), text_of(j));
+  write_atomically(folder_.manifest(), json_text(j));
 }
 
 void Manifest::end(const cycle::Outcome& outcome) {
@@ -118,7 +65,7 @@ void Manifest::end(const cycle::Outcome& outcome) {
   for (const RunRecord::Hash& hash : record_.hashes()) {
     j["hashes"].push_back({{"cycle", hash.cycle}, {"state", fmt::format("{:016x}", hash.value)}});
   }
-  write_atomically(folder_.manifest(), text_of(j));
+  write_atomically(folder_.manifest(), json_text(j));
 }
 
 }  // namespace abut::output

@@ -1,0 +1,45 @@
+// What the command line asks for, and the functions that do it. Exit codes: 0 done, 1 the deck or the run is not well, 2 wrong usage.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "abut/contact/options.hpp"
+#include "core/profile.hpp"
+
+namespace abut::app {
+
+struct RunArguments {
+  std::filesystem::path deck;
+  std::filesystem::path output;  ///< empty: ./NAME
+  int threads = 0;               ///< 0: all that the machine has
+  std::string profile = "standard";
+  std::string interface_law;     ///< empty: the profile's
+  int hash_every = 0;
+  bool timing = false;
+  bool quiet = false;
+};
+
+struct CheckArguments {
+  std::filesystem::path deck;
+  std::string profile = "standard";
+  bool json = false;
+};
+
+/// "abut 0.1.0 (commit), compiler, instruction set".
+[[nodiscard]] std::string version_text();
+
+[[nodiscard]] int run_command(const RunArguments& arguments);
+[[nodiscard]] int check_command(const CheckArguments& arguments);
+
+/// @pre name is "standard" or "reference"
+[[nodiscard]] inline Profile profile_of(std::string_view name) { return name == "reference" ? Profile::reference() : Profile::standard(); }
+/// @pre name is "", "stiffening" or "constant"
+[[nodiscard]] inline std::optional<contact::Law> law_of(std::string_view name) {
+  if (name.empty()) return std::nullopt;
+  return name == "constant" ? contact::Law::constant : contact::Law::stiffening;
+}
+
+}  // namespace abut::app

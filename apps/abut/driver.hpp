@@ -1,0 +1,37 @@
+// The one place where the command line meets the mechanics.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abut/contact/options.hpp"
+#include "core/profile.hpp"
+#include "cycle/sink.hpp"
+#include "model/model.hpp"
+#include "output/run_info.hpp"
+
+namespace abut::app {
+
+struct RunSettings {
+  int threads = 1;
+  Profile profile;
+  std::optional<contact::Law> interface_law;     ///< none: the profile's
+  int hash_every = 0;
+  const std::atomic<bool>* interrupt = nullptr;  ///< polled every cycle
+};
+
+/// Initialises the model and runs it to its end. The sink has seen begin(), cycle() and end() when this returns.
+/// @param phases  receives the time spent in each phase; read by the manifest in end()
+[[nodiscard]] cycle::Outcome run_model(const model::Model& model, const RunSettings& settings, cycle::Sink& sink,
+                                       std::vector<output::PhaseTime>& phases);
+
+/// What `abut check` says beyond the model itself.
+struct Description {
+  std::vector<double> part_mass;  ///< #parts; empty: not known
+  std::string step;               ///< first time step and what controls it; empty: not known
+};
+[[nodiscard]] Description describe_model(const model::Model& model, const RunSettings& settings);
+
+}  // namespace abut::app

@@ -1,0 +1,67 @@
+#include "output/json.hpp"
+
+#include <string_view>
+
+#include "output/summary.hpp"
+
+namespace abut::output {
+namespace {
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::note: return "note";
+    case Severity::warning: return "warning";
+    case Severity::error: return "error";
+  }
+  return "error";
+}
+
+Json finding_json(const Diagnostic& d) {
+  Json j{{"severity", severity_name(d.severity)}, {"code", d.code}, {"message", d.message}};
+  if (!d.place.file.empty()) j["file"] = d.place.file;
+  if (d.place.line > 0) j["line"] = d.place.line;
+  if (!d.place.keyword.empty()) j["keyword"] = d.place.keyword;
+  if (!d.place.field.empty()) j["field"] = d.place.field;
+  if (d.place.first_column > 0) j["columns"] = {d.place.first_column, d.place.last_column};
+  return j;
+}
+
+}  // namespace
+
+Json findings_json(const std::vector<Diagnostic>& findings) {
+  Json j = Json::array();
+  for (const Diagnostic& d : findings) j.push_back(finding_json(d));
+  return j;
+}
+
+Json model_json(const model::Model& m, std::span<const double> part_mass) {
+  Json j{{"name", m.name},
+         {"title", m.title},
+         {"units", {{"mass", m.units.mass_name}, {"length", m.units.length_name}, {"time", m.units.time_name}}},
+         {"nodes", m.node_count()},
+         {"shells", m.shells.size()},
+         {"sh3ns", m.sh3ns.size()},
+         {"bricks", m.bricks.size()},
+         {"tetras", m.tetras.size()}};
+  j["parts"] = Json::array();
+  for (std::size_t p = 0; p < m.parts.size(); ++p) {
+    Json part{{"id", m.parts[p].id}, {"title", m.parts[p].title}};
+    if (p < part_mass.size()) part["mass"] = part_mass[p];
+    j["parts"].push_back(part);
+  }
+  j["interfaces"] = Json::array();
+  for (const model::Interface& i : m.interfaces) {
+    j["interfaces"].push_back({{"id", i.id},
+                               {"title", i.title},
+                               {"type", interface_type(i)},
+                               {"stiffness_scale", i.stfac},
+                               {"friction", i.friction},
+                               {"gap", i.gap}});
+  }
+  j["t_end"] = m.controls.t_end;
+  return j;
+}
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace abut::output
