@@ -1,26 +1,16 @@
 // The one place where the command line meets the mechanics.
 #pragma once
 
-#include <atomic>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "abut/contact/options.hpp"
-#include "core/profile.hpp"
-#include "cycle/sink.hpp"
+#include "cycle/run.hpp"
 #include "model/model.hpp"
 #include "output/run_info.hpp"
 
 namespace abut::app {
 
-struct RunSettings {
-  int threads = 1;
-  Profile profile;
-  std::optional<contact::Law> interface_law;     ///< none: the profile's
-  int hash_every = 0;
-  const std::atomic<bool>* interrupt = nullptr;  ///< polled every cycle
-};
+using RunSettings = cycle::RunOptions;
 
 /// Initialises the model and runs it to its end. The sink has seen begin(), cycle() and end() when this returns.
 /// @param phases  receives the time spent in each phase; read by the manifest in end()

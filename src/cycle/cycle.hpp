@@ -38,7 +38,7 @@ class Cycle {
   [[nodiscard]] const state::State& state() const { return state_; }
   [[nodiscard]] const state::Balance& balance() const { return balance_; }
   [[nodiscard]] const StepController& controller() const { return controller_; }
-  [[nodiscard]] std::vector<PhaseTimes> phases() const;
+  [[nodiscard]] std::vector<PhaseTime> phases() const;
   [[nodiscard]] double element_count() const;
   [[nodiscard]] double worst_error() const { return worst_error_; }
   [[nodiscard]] double worst_contact_error() const { return worst_contact_error_; }

@@ -1,7 +1,8 @@
 #include "cycle/run.hpp"
 
-#include <exception>
+#include <chrono>
 #include <sstream>
+#include <utility>
 
 #include "cycle/cycle.hpp"
 
@@ -36,7 +37,11 @@ class NullSink final : public Sink {
 RunReport run(const model::Model& model, const RunOptions& options, Sink& sink) {
   RunReport report;
   Outcome& outcome = report.outcome;
+  const auto start = std::chrono::steady_clock::now();
   Cycle cycle(model, options);
+  if (options.phases != nullptr) {
+    options.phases->push_back({"init", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+  }
   try {
     while (!cycle.finished()) {
       if (options.interrupt != nullptr && options.interrupt->load(std::memory_order_relaxed)) {
@@ -51,7 +56,9 @@ RunReport run(const model::Model& model, const RunOptions& options, Sink& sink) 
   }
   outcome.cycles = cycle.state().times.cycle;
   outcome.time = cycle.state().times.t;
-  report.phases = cycle.phases();
+  if (options.phases != nullptr) {
+    for (PhaseTime& phase : cycle.phases()) options.phases->push_back(std::move(phase));
+  }
   report.element_cycles = cycle.element_count() * static_cast<double>(outcome.cycles);
   report.worst_error = cycle.worst_error();
   report.worst_contact_error = cycle.worst_contact_error();

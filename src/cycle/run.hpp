@@ -14,23 +14,23 @@
 
 namespace abut::cycle {
 
+/// Wall-clock seconds of one phase of a run.
+struct PhaseTime {
+  std::string name;
+  double seconds = 0.0;
+};
+
 struct RunOptions {
   int threads = 1;
   Profile profile;
   std::optional<contact::Law> interface_law;   ///< overrides the profile's law for every interface
   int hash_every = 0;                          ///< cycles between state hashes, 0 = none
   const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler: the run ends cleanly
-};
-
-/// Wall-clock seconds per phase, for the manifest and --timing.
-struct PhaseTimes {
-  std::string name;
-  double seconds = 0.0;
+  std::vector<PhaseTime>* phases = nullptr;      ///< the phases are appended here before the sink's end()
 };
 
 struct RunReport {
   Outcome outcome;
-  std::vector<PhaseTimes> phases;
   double element_cycles = 0.0;     ///< elements times cycles
   double worst_error = 0.0;        ///< largest |ERR|
   double worst_contact_error = 0.0;  ///< largest |CX| over the largest energy term

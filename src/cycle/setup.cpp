@@ -88,10 +88,10 @@ Id Cycle::element_id(const elements::Group& group, Index element) const {
   return 0;
 }
 
-std::vector<PhaseTimes> Cycle::phases() const {
+std::vector<PhaseTime> Cycle::phases() const {
   static constexpr const char* names[phase_count] = {"elements",    "assembly",  "contact search", "contact force",
                                                      "constraints", "integrate", "output"};
-  std::vector<PhaseTimes> out;
+  std::vector<PhaseTime> out;
   for (int p = 0; p < phase_count; ++p) out.push_back({names[p], seconds_[static_cast<std::size_t>(p)]});
   return out;
 }

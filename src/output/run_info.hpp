@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
+#include "cycle/run.hpp"
 
 namespace abut::output {
 
@@ -21,10 +22,6 @@ struct RunInfo {
   std::vector<Diagnostic> findings;
 };
 
-/// Time spent in one phase of a run.
-struct PhaseTime {
-  std::string name;
-  double seconds = 0.0;
-};
+using PhaseTime = cycle::PhaseTime;
 
 }  // namespace abut::output
