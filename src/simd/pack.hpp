@@ -97,7 +97,7 @@ ABUT_INLINE Pack<W> sqrt(Pack<W> a) {
 #endif
   } else {
 #if defined(__AVX512F__)
-    b.r = (typename VectorOf<8>::real)_mm512_sqrt_pd((__m512d)a.r);
+    b.r = (typename VectorOf<8>::real)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.r);
     return b;
 #endif
   }
