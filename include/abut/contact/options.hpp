@@ -26,7 +26,8 @@ struct Rules {
   bool one_pass_half_stiffness = false;
   /// true: a triangle's third node counts twice in its nodal stiffness (K/4 each), else K/3 per node.
   bool triangle_third_node_twice = false;
-  /// true: no friction in the first cycle of a contact unless it exists at the start; slip test on the full vector.
+  /// true: anchors as in numerics.md 7.4.3 (no friction in the first cycle of a contact unless it exists at the start, slip
+  /// test on the full vector), else return mapping.
   bool reference_friction = false;
   /// true: closed-form projection by area ratios (exact for parallelograms), else Newton.
   bool area_ratio_projection = false;
@@ -64,6 +65,7 @@ struct StepResult {
   Vec3 tangential_force;
   Index in_contact = 0;         ///< held nodes with P > 0, both passes
   double largest_penetration = 0.0;
+  Index crossed = 0;            ///< nodes that the swept test caught in this step: they would have jumped through
   double largest_approach = 0.0;  ///< normal approach in the last step, in units of gap (gap > 0)
   /// Upper limit of the coming step from kinematics (gap - P against closing speed); 1e30: none.
   double kinematic_step = 1e30;

@@ -1,0 +1,298 @@
+#include "elements/shell_common/shell_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "elements/shell_common/setup.hpp"
+
+namespace abut::elements {
+
+ShellGroup::ShellGroup(const GroupInput& in, Family family, model::ElementKind kind, int nodes_per_element)
+    : in_(in), family_(family), kind_(kind), per_element_(static_cast<std::size_t>(nodes_per_element)) {
+  part_ = in.part;
+  elements_ = in.elements;
+  layout_.nodes_per_element = nodes_per_element;
+  layout_.components = 8;
+  layout_.blocks = (size() + lanes - 1) / lanes;
+  if (in.model->node_x.size() > std::numeric_limits<std::int32_t>::max() / 3) {
+    throw std::length_error("more nodes than a shell group can address");
+  }
+}
+
+std::span<const Index> ShellGroup::nodes(Index element) const {
+  const auto e = static_cast<std::size_t>(elements_[static_cast<std::size_t>(element)]);
+  if (per_element_ == 4) return in_.model->shells.nodes[e];
+  return in_.model->sh3ns.nodes[e];
+}
+
+double ShellGroup::initial_thickness(Index element) const {
+  const auto e = static_cast<std::size_t>(elements_[static_cast<std::size_t>(element)]);
+  const std::vector<double>& own = per_element_ == 4 ? in_.model->shells.thickness : in_.model->sh3ns.thickness;
+  if (e < own.size() && own[e] > 0.0) return own[e];
+  const model::Property& property = property_of(in_);
+  if (const auto* empty = std::get_if<model::VoidProperty>(&property.data)) return empty->thickness;
+  return std::get<model::ShellProperty>(property.data).thickness;
+}
+
+std::array<Vec3, 4> ShellGroup::corners(Index element, const Vec3* x) const {
+  std::array<Vec3, 4> c{};
+  const std::span<const Index> n = nodes(element);
+  for (std::size_t k = 0; k < n.size(); ++k) c[k] = x[n[k]];
+  return c;
+}
+
+double& ShellGroup::variable(Index element, int which) {
+  const auto e = static_cast<std::size_t>(element);
+  return state_[((e / lanes) * static_cast<std::size_t>(section_->variables) + static_cast<std::size_t>(which)) * lanes +
+                e % lanes];
+}
+
+double ShellGroup::variable(Index element, int which) const {
+  return const_cast<ShellGroup*>(this)->variable(element, which);
+}
+
+double ShellGroup::constant(Index element, int which) const {
+  const auto e = static_cast<std::size_t>(element);
+  return constants_[((e / lanes) * shell_constant::count + static_cast<std::size_t>(which)) * lanes + e % lanes];
+}
+
+void ShellGroup::set_up() {
+  const auto blocks = static_cast<std::size_t>(layout_.blocks);
+  const double density = material_of(in_).density;
+  constants_.assign(blocks * shell_constant::count * lanes, 0.0);
+  initial_area_.resize(static_cast<std::size_t>(size()));
+  last_x_ = in_.model->node_x.data();
+  const auto padded = static_cast<Index>(blocks * lanes);
+  for (Index e = 0; e < padded; ++e) {
+    // Padding repeats the last element, switched off.
+    const Index source = std::min(e, size() - 1);
+    const std::array<Vec3, 4> x = corners(source, last_x_);
+    const std::span<const Vec3> used(x.data(), per_element_);
+    const ShellShares share = shares(used, initial_thickness(source), density);
+    if (e < size()) initial_area_[static_cast<std::size_t>(e)] = frame(used).area;
+    const auto set = [&](int which, double value) {
+      constants_[(static_cast<std::size_t>(e / lanes) * shell_constant::count + static_cast<std::size_t>(which)) * lanes +
+                 static_cast<std::size_t>(e % lanes)] = value;
+    };
+    set(shell_constant::regular, share.regular ? 1.0 : 0.0);
+    set(shell_constant::active, e < size() ? 1.0 : 0.0);
+    for (int k = 0; k < 4; ++k) set(shell_constant::mass + k, share.mass[static_cast<std::size_t>(k)]);
+    set(shell_constant::inertia, share.inertia_per_mass);
+  }
+  if (!section_) return;
+
+  nodes_.resize(blocks * per_element_ * lanes);
+  steps_.assign(blocks * lanes, 1e30);
+  results_.resize(blocks);
+  state_.assign(blocks * static_cast<std::size_t>(section_->variables) * lanes, 0.0);
+  for (Index e = 0; e < padded; ++e) {
+    const Index source = std::min(e, size() - 1);
+    const std::span<const Index> n = nodes(source);
+    for (std::size_t k = 0; k < per_element_; ++k) {
+      nodes_[(static_cast<std::size_t>(e / lanes) * per_element_ + k) * lanes + static_cast<std::size_t>(e % lanes)] =
+          3 * n[k];
+    }
+    variable(e, shell_state::thickness) = initial_thickness(source);
+    variable(e, shell_state::off) = e < size() ? 1.0 : 0.0;
+    if (section_->at_rate_thickness >= 0) variable(e, section_->at_rate_thickness) = initial_thickness(source);
+    for (int k = 0; section_->at_points >= 0 && k < section_->points; ++k) {
+      const int point = section_->at_points + k * section_->point_size;
+      variable(e, point + 4) = section_->plastic.a;
+      if (section_->temperature) variable(e, point + section_->point_temperature) = section_->plastic.t_ref;
+    }
+  }
+}
+
+void ShellGroup::initial_masses(std::span<double> slots) const {
+  std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
+  for (Index e = 0; e < size(); ++e) {
+    for (int k = 0; k < layout_.nodes_per_element; ++k) {
+      const double mass = constant(e, shell_constant::mass + k);
+      slots[layout_.at(e, k, 0)] = mass;
+      slots[layout_.at(e, k, 1)] = mass * constant(e, shell_constant::inertia);
+    }
+  }
+}
+
+void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, BlockResult& result) {
+  const auto stride = static_cast<std::size_t>(section_->variables) * lanes;
+  const double* state = state_.data() + block * stride;
+  const double* off = state + shell_state::off * lanes;
+  const auto count_on = [&] {
+    int on = 0;
+    for (int l = 0; l < lanes; ++l) on += off[l] > 0.0 ? 1 : 0;
+    return on;
+  };
+  const int before = count_on();
+  run(args, block, block + 1);
+  if (in_.step_action == model::StepControl::Action::remove || in_.step_action == model::StepControl::Action::constant) {
+    act_on_small_steps(args, block);
+  }
+  result = {};
+  result.removed = before - count_on();
+  const double* step = steps_.data() + block * lanes;
+  const double* membrane = state + shell_state::membrane_energy * lanes;
+  const double* bending = state + shell_state::bending_energy * lanes;
+  const double* hourglass = state + shell_state::hourglass_energy * lanes;
+  for (int l = 0; l < lanes; ++l) {
+    if (step[l] < result.step) {
+      result.step = step[l];
+      result.lane = l;
+    }
+    result.internal += membrane[l] + bending[l];
+    result.hourglass += hourglass[l];
+  }
+}
+
+void ShellGroup::act_on_small_steps(const ShellKernelArgs& args, std::size_t block) {
+  double* step = steps_.data() + block * lanes;
+  for (int l = 0; l < lanes; ++l) {
+    if (!(in_.step_scale * step[l] <= in_.step_minimum)) continue;
+    const auto element = static_cast<Index>(block * lanes + static_cast<std::size_t>(l));
+    if (in_.step_action == model::StepControl::Action::constant) {
+      if (at_frozen_flag_ >= 0 && variable(element, at_frozen_flag_) == 0.0) variable(element, at_frozen_flag_) = 0.5;
+      continue;
+    }
+    step[l] = 1e30;
+    variable(element, shell_state::off) = 0.0;
+    for (int i = shell_state::f; i < shell_state::membrane_energy; ++i) variable(element, i) = 0.0;
+    double* slots = args.slots + block * per_element_ * 8 * lanes + l;
+    for (std::size_t i = 0; i < per_element_ * 8; ++i) slots[i * lanes] = 0.0;
+  }
+}
+
+GroupResult ShellGroup::step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) {
+  GroupResult total;
+  last_x_ = in.x;
+  if (!section_) {
+    std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
+    return total;
+  }
+  ShellKernelArgs args;
+  args.x = &in.x->x;
+  args.v = &in.v->x;
+  args.w = &in.w->x;
+  args.h = in.dt;
+  args.section = &*section_;
+  args.state = state_.data();
+  args.nodes = nodes_.data();
+  args.constants = constants_.data();
+  args.slots = slots.data() + layout_.offset;
+  args.steps = steps_.data();
+  constexpr std::size_t grain = 16;  // blocks, about 10 us
+  pool.for_ranges(results_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) run_block(args, b, results_[b]);
+  });
+  for (std::size_t b = 0; b < results_.size(); ++b) {
+    const BlockResult& r = results_[b];
+    if (r.step * in_.step_scale < total.step) {
+      total.step = r.step * in_.step_scale;
+      total.step_element = static_cast<Index>(b * lanes) + r.lane;
+    }
+    total.internal_energy += r.internal;
+    total.hourglass_energy += r.hourglass;
+    total.removed += r.removed;
+    if (total.bad_element == no_index && !std::isfinite(r.internal + r.hourglass)) total.bad_element = first_bad_element(b);
+  }
+  return total;
+}
+
+Index ShellGroup::first_bad_element(std::size_t block) const {
+  const auto begin = static_cast<Index>(block * lanes);
+  for (Index e = begin; e < std::min(begin + lanes, size()); ++e) {
+    if (!std::isfinite(element_energy(e))) return e;
+  }
+  return begin;
+}
+
+void ShellGroup::set_rigid(std::span<const std::uint8_t> rigid) {
+  if (rigid.size() != elements_.size()) throw std::invalid_argument("set_rigid: one flag per element of the group");
+  for (std::size_t e = 0; e < rigid.size(); ++e) {
+    constants_[((e / lanes) * shell_constant::count + shell_constant::active) * lanes + e % lanes] =
+        rigid[e] != 0 ? 0.0 : 1.0;
+  }
+}
+
+bool ShellGroup::active(Index element) const { return !section_ || variable(element, shell_state::off) > 0.0; }
+
+double ShellGroup::thickness(Index element) const {
+  return section_ ? variable(element, shell_state::thickness) : initial_thickness(element);
+}
+
+double ShellGroup::element_mass(Index element) const {
+  double mass = 0.0;
+  for (int k = 0; k < layout_.nodes_per_element; ++k) mass += constant(element, shell_constant::mass + k);
+  return mass;
+}
+
+double ShellGroup::element_energy(Index element) const {
+  if (!section_) return 0.0;
+  return variable(element, shell_state::membrane_energy) + variable(element, shell_state::bending_energy) +
+         variable(element, shell_state::hourglass_energy);
+}
+
+std::vector<std::span<double>> ShellGroup::history() {
+  if (state_.empty()) return {};
+  return {std::span<double>(state_)};
+}
+
+ElementOutput ShellGroup::output(Index element) const {
+  ElementOutput o;
+  const std::array<Vec3, 4> x = corners(element, last_x_);
+  const ShellFrame f = frame(std::span<const Vec3>(x.data(), per_element_));
+  o.thickness = thickness(element);
+  o.volume = f.area * o.thickness;
+  o.density = o.volume > 0.0 ? element_mass(element) / o.volume : 0.0;
+  if (!section_) return o;
+  o.off = variable(element, shell_state::off);
+  o.membrane_energy = variable(element, shell_state::membrane_energy);
+  o.bending_energy = variable(element, shell_state::bending_energy);
+  o.internal_energy = o.membrane_energy + o.bending_energy;
+  o.hourglass_energy = variable(element, shell_state::hourglass_energy);
+  for (std::size_t i = 0; i < 8; ++i) o.resultants[i] = variable(element, static_cast<int>(i));
+  const auto [xx, yy, xy, yz, zx] = std::array{o.resultants[0], o.resultants[1], o.resultants[2], o.resultants[3], o.resultants[4]};
+  o.pressure = -(xx + yy) / 3.0;
+  o.von_mises = std::sqrt(xx * xx + yy * yy - xx * yy + 3.0 * xy * xy);
+  const Vec3 columns[3] = {xx * f.axes[0] + xy * f.axes[1] + zx * f.axes[2], xy * f.axes[0] + yy * f.axes[1] + yz * f.axes[2],
+                           zx * f.axes[0] + yz * f.axes[1]};
+  const auto component = [&](int i, int j) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) sum += columns[k][i] * f.axes[k][j];
+    return sum;
+  };
+  o.stress = {component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(1, 2), component(2, 0)};
+  for (int k = 0; section_->at_points >= 0 && k < section_->points; ++k) {
+    const double p = variable(element, section_->at_points + k * section_->point_size + 3);
+    o.plastic_min = k == 0 ? p : std::min(o.plastic_min, p);
+    o.plastic_max = k == 0 ? p : std::max(o.plastic_max, p);
+  }
+  return o;
+}
+
+PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const {
+  PartSums sums;
+  const double n = static_cast<double>(per_element_);
+  for (Index e = 0; e < size(); ++e) {
+    if (constant(e, shell_constant::active) == 0.0) continue;
+    const double mass = element_mass(e);
+    const double t = initial_thickness(e), area = initial_area_[static_cast<std::size_t>(e)];
+    double v2 = 0.0, w2 = 0.0;
+    Vec3 mean;
+    for (const Index node : nodes(e)) {
+      const auto i = static_cast<std::size_t>(node);
+      v2 += squared_norm(v[i]);
+      mean += v[i];
+      if (!w.empty()) w2 += squared_norm(w[i]);
+    }
+    sums.mass += mass;
+    sums.kinetic_energy += 0.5 * mass / n * v2;
+    sums.rotational_energy += 0.5 * mass / n * (t * t + area) / 12.0 * w2;
+    sums.momentum += (mass / n) * mean;
+  }
+  return sums;
+}
+
+}  // namespace abut::elements

@@ -1,0 +1,89 @@
+// What quadrilateral and triangular shell groups share: blocks, set-up, reductions, output.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "elements/group.hpp"
+#include "elements/shell_common/kernel_args.hpp"
+#include "elements/shell_common/section.hpp"
+
+namespace abut::elements {
+
+/// Node shares of one element at t = 0.
+struct ShellShares {
+  std::array<double, 4> mass{};  ///< per node slot
+  double inertia_per_mass = 0.0;
+  bool regular = true;           ///< false: nodes 3 and 4 of a quad coincide
+};
+
+/// A frame and area at given positions.
+struct ShellFrame {
+  std::array<Vec3, 3> axes;
+  double area = 0.0;
+};
+
+/// Base of the shell groups. The model must outlive the group, and the positions of the last step must stay readable for
+/// `output` (the frame is taken from them).
+class ShellGroup : public Group {
+ public:
+  [[nodiscard]] Family family() const final { return section_ ? family_ : Family::inert; }
+  [[nodiscard]] model::ElementKind kind() const final { return kind_; }
+  [[nodiscard]] std::span<const Index> nodes(Index element) const final;
+  void initial_masses(std::span<double> slots) const final;
+  GroupResult step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) final;
+  /// @param rigid one flag per element of the group (group-local index)
+  void set_rigid(std::span<const std::uint8_t> rigid) final;
+  [[nodiscard]] ElementOutput output(Index element) const final;
+  [[nodiscard]] bool active(Index element) const final;
+  [[nodiscard]] double thickness(Index element) const final;
+  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const final;
+  [[nodiscard]] double element_mass(Index element) const final;
+  [[nodiscard]] double element_energy(Index element) const final;
+  [[nodiscard]] std::vector<std::span<double>> history() final;
+
+ protected:
+  ShellGroup(const GroupInput& in, Family family, model::ElementKind kind, int nodes_per_element);
+
+  /// Fills blocks; called by the constructor of the family once `section_` is set and `section_->variables` is final.
+  void set_up();
+
+  virtual void run(const ShellKernelArgs& args, std::size_t begin, std::size_t end) const = 0;
+  [[nodiscard]] virtual ShellShares shares(std::span<const Vec3> corners, double thickness, double density) const = 0;
+  [[nodiscard]] virtual ShellFrame frame(std::span<const Vec3> corners) const = 0;
+
+  /// One variable of one element.
+  [[nodiscard]] double& variable(Index element, int which);
+  [[nodiscard]] double variable(Index element, int which) const;
+
+  GroupInput in_;
+  std::optional<ShellSection> section_;  ///< none: void, mass only
+  int at_frozen_flag_ = -1;              ///< variable that asks for small strain (1/2) or has it (1)
+
+ private:
+  struct BlockResult {
+    double step = 1e30, internal = 0.0, hourglass = 0.0;
+    int lane = 0, removed = 0;
+  };
+
+  [[nodiscard]] double constant(Index element, int which) const;
+  [[nodiscard]] double initial_thickness(Index element) const;
+  [[nodiscard]] std::array<Vec3, 4> corners(Index element, const Vec3* x) const;
+  void run_block(const ShellKernelArgs& args, std::size_t block, BlockResult& result);
+  void act_on_small_steps(const ShellKernelArgs& args, std::size_t block);
+  [[nodiscard]] Index first_bad_element(std::size_t block) const;
+
+  Family family_;
+  model::ElementKind kind_;
+  std::size_t per_element_;
+  std::vector<double> state_;
+  std::vector<double> constants_;
+  std::vector<double> initial_area_;
+  std::vector<std::int32_t> nodes_;
+  std::vector<double> steps_;
+  std::vector<BlockResult> results_;
+  const Vec3* last_x_ = nullptr;
+};
+
+}  // namespace abut::elements

@@ -1,0 +1,29 @@
+// From bounds of an element's eigenvalues to its step and its nodal stiffness; derivation in shell_q4/step_length.hpp.
+#pragma once
+
+#include "simd/pack.hpp"
+
+namespace abut::elements {
+
+/// Step of each lane, and the nodal stiffness that goes to the slots.
+template <class T>
+struct ShellStep {
+  T step;
+  T per_mass;               ///< bound: K_I = per_mass * m_I
+  T stiffness, rotational;  ///< reference: the same for every node
+};
+
+/// The step h with h^2 k/4 + h c/2 = 1.
+template <class T>
+ABUT_INLINE T stable_step(T k, T c) {
+  const T half_c = T(0.5) * c;
+  return T(2.0) / (half_c + sqrt(half_c * half_c + k));
+}
+
+/// 2 c / h_ref, h_ref half of the last step `h` or of the element's own step, whichever is smaller.
+template <class T>
+ABUT_INLINE T viscous_stiffness(T c, T step, double h) {
+  return h > 0.0 ? T(4.0) * c / min(step, T(h)) : T(4.0) * c / step;
+}
+
+}  // namespace abut::elements

@@ -1,0 +1,201 @@
+// One step of the one-point quadrilateral shell (Belytschko-Tsay family, Ishell 1 to 4).
+//
+// Equation contract (numerics.md 3.2, 3.3, 3.8; Belytschko, Lin, Tsay, CMAME 42 (1984) 225; Belytschko, Tsay, IJNME 19 (1983) 405):
+//   rates   A e_xx = P_x . v_x, A kappa_xx = P_x . w_y, A gamma_zx = P_x . v_z + A/4 sum w_y, ... at the centre, in the frame of x^n
+//   forces  f_xI = t (F_xx P_xI + F_xy P_yI), m_yI = t^2 (M_xx P_xI + M_xy P_yI) + t A F_zx/4, ... plus hourglass
+// Symbols: d13 = value at node 1 minus value at node 3; hg = value_1 - value_2 + value_3 - value_4. Since P_3 = -P_1 and P_4 = -P_2, only
+// d13, d24 and hg of the velocities (and the sum of the rotations) are needed, and only these are rotated into the frame.
+// Second-order corrections (numerics.md 3.3) remove the stretch that a finite rotation over one step would leave.
+// Elements that are off or rigid see zero rates and write zeros.
+#pragma once
+
+#include "elements/shell_common/kernel_args.hpp"
+#include "elements/shell_common/section.hpp"
+#include "elements/shell_q4/geometry.hpp"
+#include "elements/shell_q4/hourglass.hpp"
+#include "elements/shell_q4/parameters.hpp"
+#include "elements/shell_q4/step_length.hpp"
+
+namespace abut::elements {
+
+namespace q4_detail {
+
+/// Small strain: takes the coordinates of the lanes that freeze now, returns those of the frozen ones.
+template <class T>
+ABUT_INLINE void freeze(double* frozen, Q4Geometry<T>& g) {
+  using section_detail::get;
+  using section_detail::put;
+  const T flag = get<T>(frozen, 6);
+  const auto old = flag >= T(1.0);
+  const auto held = flag > T(0.0);
+  T* const current[6] = {&g.x2, &g.y2, &g.x3, &g.y3, &g.x4, &g.y4};
+  for (int i = 0; i < 6; ++i) {
+    *current[i] = select(old, get<T>(frozen, i), *current[i]);
+    put(frozen, i, *current[i]);
+  }
+  put(frozen, 6, select(held, T(1.0), T(0.0)));
+  g.z2 = select(held, T(0.0), g.z2);
+}
+
+/// |d| not below 1e-20, sign kept.
+template <class T>
+ABUT_INLINE T guarded(T d) {
+  const T tiny = T(1e-20);
+  return select(d < T(0.0), min(d, -tiny), max(d, tiny));
+}
+
+template <class T>
+ABUT_INLINE void store_slot(double* slot, int component, T value) {
+  simd::NumberTraits<T>::store(slot + component * shell_lanes, value);
+}
+
+}  // namespace q4_detail
+
+/// The NumberTraits<T>::width elements from `lane` on of one block.
+template <class T, ShellLaw law>
+ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t block,
+                          int lane) {
+  using section_detail::get;
+  const ShellSection& s = *args.section;
+  const double h = args.h;
+  double* state = args.state + block * static_cast<std::size_t>(s.variables * shell_lanes) + lane;
+  const double* constants = args.constants + block * (shell_constant::count * shell_lanes) + lane;
+  const std::int32_t* nodes = args.nodes + block * (4 * shell_lanes) + lane;
+  double* slots = args.slots + block * (4 * 8 * shell_lanes) + lane;
+  const T zero = T(0.0), one = T(1.0), two = T(2.0);
+
+  // gather
+  const Vec<T> v1 = gather(T{}, args.v, nodes), v2 = gather(T{}, args.v, nodes + 8);
+  const Vec<T> v3 = gather(T{}, args.v, nodes + 16), v4 = gather(T{}, args.v, nodes + 24);
+  const Vec<T> w1 = gather(T{}, args.w, nodes), w2 = gather(T{}, args.w, nodes + 8);
+  const Vec<T> w3 = gather(T{}, args.w, nodes + 16), w4 = gather(T{}, args.w, nodes + 24);
+  const T regular = simd::NumberTraits<T>::load(constants + shell_constant::regular * shell_lanes);
+  const T not_rigid = simd::NumberTraits<T>::load(constants + shell_constant::active * shell_lanes);
+  const auto alive = (get<T>(state, shell_state::off) > zero) & (not_rigid > zero);
+
+  // geometry
+  Q4Geometry<T> g;
+  q4_frame(q.frame_v4, gather(T{}, args.x, nodes), gather(T{}, args.x, nodes + 8), gather(T{}, args.x, nodes + 16),
+           gather(T{}, args.x, nodes + 24), g);
+  if (q.may_freeze) q4_detail::freeze(state + q.at_frozen * shell_lanes, g);
+  q4_operators(q.plain_gamma, g);
+  const T inverse_area = one / g.area;
+
+  // velocities: differences first, then into the frame
+  const Vec<T> gv13 = v1 - v3, gv24 = v2 - v4, gvh = (v1 - v2) + (v3 - v4);
+  T vx13 = dot(gv13, g.e1), vy13 = dot(gv13, g.e2);
+  T vx24 = dot(gv24, g.e1), vy24 = dot(gv24, g.e2);
+  const T vz13 = dot(gv13, g.e3), vz24 = dot(gv24, g.e3);
+  T vxh = dot(gvh, g.e1), vyh = dot(gvh, g.e2);
+  const T vzh = dot(gvh, g.e3);
+  const Vec<T> gw13 = w1 - w3, gw24 = w2 - w4, gw1 = w1 + w3, gw2 = w2 + w4;
+  const Vec<T> gws = gw1 + gw2, gwh = gw1 - gw2;
+  const T wx13 = dot(gw13, g.e1), wy13 = dot(gw13, g.e2), wx24 = dot(gw24, g.e1), wy24 = dot(gw24, g.e2);
+  const T wxs = dot(gws, g.e1), wys = dot(gws, g.e2), wxh = dot(gwh, g.e1), wyh = dot(gwh, g.e2);
+
+  // transverse shear of the mid-surface; second-order corrections
+  const T gy = (g.py1 * vz13 + g.py2 * vz24) * inverse_area, gx = (g.px1 * vz13 + g.px2 * vz24) * inverse_area;
+  T rate_x, rate_y, rate_z = vzh - g.area * (g.hx * gx + g.hy * gy);
+  T z_force = zero;  // height at which the hourglass forces of a warped element act
+  if (q.ishell <= 2) {
+    rate_x = vxh - (g.px1 * vx13 + g.px2 * vx24) * g.hx - (g.py1 * vx13 + g.py2 * vx24) * g.hy;
+    rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
+    const T quarter = T(0.25 * h);
+    const T minus = vz13 - vz24, plus = vz13 + vz24;
+    const T dx = quarter * (minus * minus) / q4_detail::guarded(g.py1 + g.py2);
+    const T dy = quarter * (plus * plus) / q4_detail::guarded(g.px2 - g.px1);
+    vx13 -= dx;
+    vx24 += dx;
+    vy13 += dy;
+    vy24 -= dy;
+  } else {
+    const T qx = T(0.5 * h) * (gx * gx), qy = T(0.5 * h) * (gy * gy);
+    vx13 -= two * qx * g.py2;
+    vx24 += two * qx * g.py1;
+    vy13 += two * qy * g.px2;
+    vy24 -= two * qy * g.px1;
+    vxh -= two * gx * g.z2;
+    vyh -= two * gy * g.z2;
+    if (q.ishell == 3) {
+      // Velocities relative to the rigid rotation: the linear part of the correction drops out of gamma . v.
+      vxh -= qx * g.area * g.hx;
+      vyh -= qy * g.area * g.hy;
+      rate_z += two * (qx + qy) * g.z2;
+    }
+    rate_x = vxh - (g.px1 * vx13 + g.px2 * vx24) * g.hx - (g.py1 * vx13 + g.py2 * vx24) * g.hy;
+    rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
+    if (s.bending) z_force = g.z2;
+  }
+
+  // velocity strains and curvature rates
+  ShellRates<T> rate;
+  rate.exx = select(alive, (g.px1 * vx13 + g.px2 * vx24) * inverse_area, zero);
+  rate.eyy = select(alive, (g.py1 * vy13 + g.py2 * vy24) * inverse_area, zero);
+  rate.gxy = select(alive, (g.py1 * vx13 + g.py2 * vx24 + g.px1 * vy13 + g.px2 * vy24) * inverse_area, zero);
+  rate.gyz = select(alive, gy - T(0.25) * wxs, zero);
+  rate.gzx = select(alive, gx + T(0.25) * wys, zero);
+  rate.kxx = select(alive, (g.px1 * wy13 + g.px2 * wy24) * inverse_area, zero);
+  rate.kyy = select(alive, -((g.py1 * wx13 + g.py2 * wx24) * inverse_area), zero);
+  rate.kxy = select(alive, (g.py1 * wy13 + g.py2 * wy24 - g.px1 * wx13 - g.px2 * wx24) * inverse_area, zero);
+
+  // section and hourglass
+  const ShellForces<T> n = update_section<T, law>(s, state, rate, h, g.area);
+  const T t = n.thickness;
+  const T b_sum = g.px1 * g.px1 + g.py1 * g.py1 + g.px2 * g.px2 + g.py2 * g.py2;
+  const T d1 = vz13 + vz24, d2 = vz13 - vz24;
+  const Q4Hourglass<T> hg = q4_hourglass<T>(
+      s, q, state, regular, t, g.area, b_sum, n.off, n.yield, select(alive, n.off * rate_x, zero),
+      select(alive, n.off * rate_y, zero), select(alive, n.off * rate_z, zero), select(alive, wxh, zero),
+      select(alive, wyh, zero), select(alive, d1, zero), select(alive, d2, zero), h);
+
+  // nodal forces and moments in the frame: gradient part of nodes 1 and 2, the rest
+  const T f1x = t * (n.fxx * g.px1 + n.fxy * g.py1), f2x = t * (n.fxx * g.px2 + n.fxy * g.py2);
+  const T f1y = t * (n.fyy * g.py1 + n.fxy * g.px1), f2y = t * (n.fyy * g.py2 + n.fxy * g.px2);
+  const T f1z = t * (n.fzx * g.px1 + n.fyz * g.py1) + (hg.dn_1 + hg.dn_2);
+  const T f2z = t * (n.fzx * g.px2 + n.fyz * g.py2) + (hg.dn_1 - hg.dn_2);
+  const T t2 = t * t;
+  const T m1x = -(t2 * (n.myy * g.py1 + n.mxy * g.px1)), m2x = -(t2 * (n.myy * g.py2 + n.mxy * g.px2));
+  const T m1y = t2 * (n.mxx * g.px1 + n.mxy * g.py1), m2y = t2 * (n.mxx * g.px2 + n.mxy * g.py2);
+  const T ta = t * g.area;
+  const T lift = two * n.off * z_force;  // gamma_1 + gamma_3 = 2
+  const T msx = T(-0.25) * (ta * n.fyz + lift * hg.qy), msy = T(0.25) * (ta * n.fzx + lift * hg.qx);
+
+  // scatter: into global axes, then per node
+  const Vec<T> f1 = f1x * g.e1 + f1y * g.e2 + f1z * g.e3, f2 = f2x * g.e1 + f2y * g.e2 + f2z * g.e3;
+  const Vec<T> fh = (n.off * hg.qx) * g.e1 + (n.off * hg.qy) * g.e2 + (n.off * hg.qz) * g.e3;
+  const Vec<T> m1 = m1x * g.e1 + m1y * g.e2, m2 = m2x * g.e1 + m2y * g.e2;
+  const Vec<T> ma = (msx + hg.mx) * g.e1 + (msy + hg.my) * g.e2, mb = (msx - hg.mx) * g.e1 + (msy - hg.my) * g.e2;
+  const T mass = simd::NumberTraits<T>::load(constants + shell_constant::mass * shell_lanes);
+  const T inertia = simd::NumberTraits<T>::load(constants + shell_constant::inertia * shell_lanes);
+  const ShellStep<T> step = q.step_bound ? q4_step_bound(s, q, g, t, mass, inertia, hg.stiffness, h)
+                                         : q4_step_reference(s, q, g, t, regular, damping, hg.stiffness);
+  const auto stays = alive & (n.off > zero);
+  simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane),
+                               select(stays, step.step, T(1e30)));
+  const T stiffness = select(stays, q.step_bound ? step.per_mass * mass : step.stiffness, zero);
+  const T rotational = select(stays, q.step_bound ? step.per_mass * mass * inertia : step.rotational, zero);
+  const Vec<T> f[4] = {f1 + g.gamma1 * fh, f2 + g.gamma2 * fh, g.gamma3 * fh - f1, g.gamma4 * fh - f2};
+  const Vec<T> m[4] = {m1 + ma, m2 + mb, ma - m1, mb - m2};
+  for (int i = 0; i < 4; ++i) {
+    double* slot = slots + i * 8 * shell_lanes;
+    q4_detail::store_slot(slot, 0, select(stays, f[i].x, zero));
+    q4_detail::store_slot(slot, 1, select(stays, f[i].y, zero));
+    q4_detail::store_slot(slot, 2, select(stays, f[i].z, zero));
+    q4_detail::store_slot(slot, 3, stiffness);
+    q4_detail::store_slot(slot, 4, select(stays, m[i].x, zero));
+    q4_detail::store_slot(slot, 5, select(stays, m[i].y, zero));
+    q4_detail::store_slot(slot, 6, select(stays, m[i].z, zero));
+    q4_detail::store_slot(slot, 7, rotational);
+  }
+}
+
+/// Blocks [begin, end). `damping`: sqrt(1 + dm^2) - dm, the factor of the reference's step.
+template <class T, ShellLaw law>
+ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t begin,
+                           std::size_t end) {
+  for (std::size_t b = begin; b < end; ++b) {
+    for (int lane = 0; lane < shell_lanes; lane += simd::NumberTraits<T>::width) q4_lanes<T, law>(args, q, damping, b, lane);
+  }
+}
+
+}  // namespace abut::elements
