@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,7 +46,8 @@ class Interface {
   /// TYPE3: two passes; neither surface is main (T2, T10). @throws std::invalid_argument when a node lies on both (T6).
   static Interface two_surfaces(Surface first, Surface second, const Options& options);
   /// TYPE5: the nodes are held against the surface, one pass. `node_stiffness` #nodes: their own stiffness
-  /// (sum of a quarter per facet around them); used in series unless rules.one_pass_half_stiffness.
+  /// (sum of a quarter per facet around them); used in series unless rules.one_pass_half_stiffness. Empty: half of the
+  /// facet's stiffness is taken. Their order is the order of sums: sort them by key.
   static Interface nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface,
                                     const Options& options);
 
@@ -53,10 +55,15 @@ class Interface {
   Interface(Interface&&) noexcept;
   Interface& operator=(Interface&&) noexcept;
 
-  /// @param side 0 first, 1 second (the only one of nodes_to_surface is 1)
+  /// @param side 0 first, 1 second. Of nodes_to_surface 1 is the surface and 0 the held nodes: stiffness and active are
+  ///        then #nodes (an inactive node is let go), thickness is not used.
+  /// Spans that are empty leave what was set before. May be called at any time.
+  /// @throws std::invalid_argument on a wrong length, a negative or non-finite stiffness
   void set_surface(int side, const SurfaceState& state);
 
+  /// Once per step, before evaluate, with the same positions.
   void search(const HostState& host);
+  /// Once per step: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added
   /// @param stiffness #N: contact stiffness is added (numerics.md 2.3 convention: h <= sqrt(2 m / K))
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness);

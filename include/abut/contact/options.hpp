@@ -26,7 +26,8 @@ struct Rules {
   bool one_pass_half_stiffness = false;
   /// true: a triangle's third node counts twice in its nodal stiffness (K/4 each), else K/3 per node.
   bool triangle_third_node_twice = false;
-  /// true: no friction in the first cycle of a contact unless it exists at the start; slip test on the full vector.
+  /// true: anchors as in numerics.md 7.4.3 (no friction in the first cycle of a contact unless it exists at the start, slip
+  /// test on the full vector), else return mapping.
   bool reference_friction = false;
   /// true: closed-form projection by area ratios (exact for parallelograms), else Newton.
   bool area_ratio_projection = false;
@@ -34,10 +35,12 @@ struct Rules {
   bool switch_correction = true;
   /// true: no limit on how deep a node may lie behind a facet.
   bool unlimited_depth = false;
+  /// false: the interface hands no stiffness and no kinematic limit to the time step.
+  bool limits_step = true;
 
   [[nodiscard]] static Rules standard() { return {}; }
   [[nodiscard]] static Rules reference() {
-    return {Law::constant, Edges::plain, true, true, true, true, false, true};
+    return {Law::constant, Edges::plain, true, true, true, true, false, true, false};
   }
 };
 
@@ -59,11 +62,13 @@ struct StepResult {
   double elastic = 0.0;         ///< CE: stored now in normal springs and elastic stick
   double friction_work = 0.0;   ///< FW: dissipated by slip, never decreases
   double damping_work = 0.0;    ///< DW
-  double made = 0.0;            ///< CX = discrete work of the contact forces + CE + FW + DW
+  /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW: energy made (> 0) or lost by the numerics
+  double made = 0.0;
   Vec3 normal_force;            ///< on the second (main) surface
   Vec3 tangential_force;
   Index in_contact = 0;         ///< held nodes with P > 0, both passes
   double largest_penetration = 0.0;
+  Index crossed = 0;            ///< nodes that the swept test caught in this step: they would have jumped through
   double largest_approach = 0.0;  ///< normal approach in the last step, in units of gap (gap > 0)
   /// Upper limit of the coming step from kinematics (gap - P against closing speed); 1e30: none.
   double kinematic_step = 1e30;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,9 +35,20 @@ class Surface {
   /// Facets at surface node s (each once), ascending.
   [[nodiscard]] std::span<const Index> facets_at(Index s) const;
   /// Facet across edge e (corner e to corner e+1) of facet f; no_index at a free border or a junction of more than two.
+  /// A triangle has edges 0, 1 and 2 (corner 2 to corner 0).
   [[nodiscard]] Index neighbour(Index f, int e) const { return neighbours_[static_cast<std::size_t>(f)][static_cast<std::size_t>(e)]; }
+  /// True when edge e of facet f belongs to no other facet.
+  [[nodiscard]] bool free_border(Index f, int e) const { return (borders_[static_cast<std::size_t>(f)] >> e & 1) != 0; }
   [[nodiscard]] Index facet_count() const { return static_cast<Index>(facets_.size()); }
   [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
+  /// Position of a host node in nodes(); no_index when it is not on this surface.
+  [[nodiscard]] Index find(Index host_node) const;
+
+  /// Order of the facets that does not depend on how they were listed: by their nodes' keys.
+  [[nodiscard]] std::vector<Index> canonical_order() const;
+  /// The same surface with its facets listed as facets()[order[0]], facets()[order[1]], ...
+  /// @param order  #F, a permutation
+  [[nodiscard]] Surface reordered(std::span<const Index> order) const;
 
  private:
   std::vector<Facet> facets_;
@@ -45,6 +57,10 @@ class Surface {
   std::vector<Index> at_first_;
   std::vector<Index> at_facet_;
   std::vector<std::array<Index, 4>> neighbours_;
+  std::vector<std::uint8_t> borders_;
+  std::vector<std::array<Index, 2>> by_host_;  // (host node, surface node), ascending
+
+  void connect();
 };
 
 }  // namespace abut::contact

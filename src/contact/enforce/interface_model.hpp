@@ -1,0 +1,26 @@
+// What every kind of interface provides behind Interface (one-sided: TYPE3, TYPE5; others derive their own).
+#pragma once
+
+#include "abut/contact/interface.hpp"
+
+namespace abut::contact {
+
+class InterfaceModel {
+ public:
+  InterfaceModel() = default;
+  InterfaceModel(const InterfaceModel&) = delete;
+  InterfaceModel& operator=(const InterfaceModel&) = delete;
+  virtual ~InterfaceModel() = default;
+
+  virtual void set_surface(int side, const SurfaceState& state) = 0;
+  virtual void search(const HostState& host) = 0;
+  virtual StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) = 0;
+  virtual void commit(double dt) = 0;
+  virtual void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const = 0;
+  virtual void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const = 0;
+  [[nodiscard]] virtual std::span<const Index> nodes_in_contact() const = 0;
+  [[nodiscard]] virtual std::vector<std::byte> history() const = 0;
+  virtual void restore(std::span<const std::byte> history) = 0;
+};
+
+}  // namespace abut::contact

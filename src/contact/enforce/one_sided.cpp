@@ -1,0 +1,214 @@
+#include "contact/enforce/one_sided.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace abut::contact {
+namespace {
+
+void check(const Options& o) {
+  const auto refuse = [](const char* what, double value) {
+    throw std::invalid_argument(std::string("contact: ") + what + ", not " + std::to_string(value));
+  };
+  if (!(o.stiffness_scale > 0.0) || !std::isfinite(o.stiffness_scale)) refuse("stiffness_scale must be > 0", o.stiffness_scale);
+  if (!(o.friction >= 0.0)) refuse("friction must be >= 0", o.friction);
+  if (!(o.tangential_ratio > 0.0)) refuse("tangential_ratio must be > 0", o.tangential_ratio);
+  if (!(o.gap >= 0.0) || !std::isfinite(o.gap)) refuse("gap must be >= 0", o.gap);
+  if (!(o.shear_limit > 0.0)) refuse("shear_limit must be > 0", o.shear_limit);
+  if (!(o.depth_limit >= 0.0)) refuse("depth_limit must be >= 0", o.depth_limit);
+}
+
+bool canonical(const Options& o) { return o.rules.edges == Edges::closest; }
+
+std::size_t largest_node(const Side& side) {
+  Index largest = no_index;
+  for (const Index n : side.nodes()) largest = std::max(largest, n);
+  return static_cast<std::size_t>(largest + 1);
+}
+
+}  // namespace
+
+OneSided::OneSided(Surface first, Surface second, const Options& options) : options_(options), two_passes_(true) {
+  check(options);
+  std::string shared;
+  int count = 0;
+  for (const Index n : first.nodes()) {
+    if (second.find(n) == no_index) continue;
+    if (++count <= 20) shared += (count > 1 ? ", " : "") + std::to_string(n);
+  }
+  if (count > 0) {
+    throw std::invalid_argument("contact: " + std::to_string(count) + " nodes lie on both surfaces: " + shared + (count > 20 ? ", ..." : ""));
+  }
+  side_ = {Side(std::move(first), canonical(options)), Side(std::move(second), canonical(options))};
+  pass_.emplace_back(options, false, at(side_[0].node_count()));
+  pass_.emplace_back(options, false, at(side_[1].node_count()));
+  prepare();
+}
+
+OneSided::OneSided(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options)
+    : options_(options), two_passes_(false) {
+  check(options);
+  if (!node_stiffness.empty() && node_stiffness.size() != nodes.size()) {
+    throw std::invalid_argument("contact: " + std::to_string(node_stiffness.size()) + " stiffnesses for " + std::to_string(nodes.size()) +
+                                " nodes");
+  }
+  std::vector<Index> sorted = nodes;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+    throw std::invalid_argument("contact: node " + std::to_string(*std::adjacent_find(sorted.begin(), sorted.end())) + " is held twice");
+  }
+  if (node_stiffness.empty()) {
+    options_.rules.one_pass_half_stiffness = true;
+    node_stiffness.assign(nodes.size(), 0.0);
+  }
+  const std::size_t held = nodes.size();
+  side_ = {Side(std::move(nodes), std::move(node_stiffness)), Side(std::move(surface), canonical(options))};
+  pass_.emplace_back(options_, true, held);
+  prepare();
+}
+
+void OneSided::prepare() {
+  for (std::size_t k = 0; k < 2; ++k) {
+    loads_[k].resize(at(side_[k].node_count()));
+    side_[k].set({}, options_.rules.triangle_third_node_twice);
+  }
+}
+
+void OneSided::set_surface(int side, const SurfaceState& state) {
+  if (side < 0 || side > 1) throw std::invalid_argument("contact: side " + std::to_string(side) + " is neither 0 nor 1");
+  side_[static_cast<std::size_t>(side)].set(state, options_.rules.triangle_third_node_twice);
+  for (Pass& pass : pass_) pass.invalidate();
+}
+
+void OneSided::search(const HostState& host) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (largest_node(side_[k]) > host.x.size()) throw std::invalid_argument("contact: the host has fewer nodes than the interface");
+    side_[k].gather(host.x);
+    if (!started_) loads_[k].x_before.assign(side_[k].x().begin(), side_[k].x().end());
+  }
+  if (!started_) {
+    pass_[0].start(side_[0], side_[1]);
+    if (two_passes_) pass_[1].start(side_[1], side_[0]);
+  }
+  started_ = true;
+  if (host.time < options_.birth || host.time > options_.death) return;
+  pass_[0].search(side_[0], side_[1], loads_[1]);
+  if (two_passes_) pass_[1].search(side_[1], side_[0], loads_[0]);
+}
+
+StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
+  const bool awake = host.time >= options_.birth && host.time <= options_.death;
+  for (SideLoads& loads : loads_) loads.clear();
+  std::array<PassTotals, 2> total;
+  if (awake) {
+    total[0] = pass_[0].evaluate(host, side_[0], side_[1], loads_[0], loads_[1]);
+    if (two_passes_) total[1] = pass_[1].evaluate(host, side_[1], side_[0], loads_[1], loads_[0]);
+  } else {
+    for (std::size_t k = 0; k < pass_.size(); ++k) total[k] = pass_[k].rest();
+  }
+
+  for (std::size_t k = 0; k < 2; ++k) {
+    SideLoads& loads = loads_[k];
+    loads.work_step = 0.0;
+    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+      const Vec3 f = loads.total(s);
+      loads.work_step += dot(0.5 * (loads.force_before[s] + f), side_[k].x()[s] - loads.x_before[s]);
+      const std::size_t node = at(side_[k].nodes()[s]);
+      force[node] += f;
+      stiffness[node] += loads.own_stiffness[s] + loads.reaction_stiffness[s];
+    }
+  }
+
+  StepResult result;
+  friction_step_ = total[0].dissipated + total[1].dissipated;
+  result.elastic = (total[0].potential + total[0].stick) + (total[1].potential + total[1].stick);
+  result.friction_work = friction_work_ + friction_step_;
+  const double work = (loads_[0].work + loads_[0].work_step) + (loads_[1].work + loads_[1].work_step);
+  if (!evaluated_) initial_elastic_ = result.elastic;
+  evaluated_ = true;
+  result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work;
+  result.normal_force = total[1].normal - total[0].normal;
+  result.tangential_force = total[1].tangential - total[0].tangential;
+  result.in_contact = total[0].in_contact + total[1].in_contact;
+  result.crossed = total[0].crossed + total[1].crossed;
+  result.largest_penetration = std::max(total[0].largest_penetration, total[1].largest_penetration);
+  result.largest_approach = std::max(total[0].largest_approach, total[1].largest_approach);
+  const std::size_t tighter = total[1].kinematic_step < total[0].kinematic_step ? 1 : 0;
+  result.kinematic_step = total[tighter].kinematic_step;
+  result.kinematic_node = total[tighter].kinematic_node;
+  in_contact_ = pass_[0].in_contact();
+  if (two_passes_) in_contact_.insert(in_contact_.end(), pass_[1].in_contact().begin(), pass_[1].in_contact().end());
+  return result;
+}
+
+void OneSided::commit(double) {
+  for (Pass& pass : pass_) pass.commit();
+  for (std::size_t k = 0; k < 2; ++k) {
+    SideLoads& loads = loads_[k];
+    loads.work += loads.work_step;
+    loads.work_step = 0.0;
+    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+      loads.force_before[s] = loads.total(s);
+      loads.x_before[s] = side_[k].x()[s];
+    }
+  }
+  friction_work_ += friction_step_;
+  friction_step_ = 0.0;
+}
+
+void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t s = 0; s < loads_[k].own_normal.size(); ++s) {
+      const std::size_t node = at(side_[k].nodes()[s]);
+      normal[node] += loads_[k].own_normal[s] + loads_[k].reaction_normal[s];
+      tangential[node] += loads_[k].own_tangential[s] + loads_[k].reaction_tangential[s];
+    }
+  }
+}
+
+void OneSided::add_nodal_area(std::span<const Vec3> x, std::span<double> area) const {
+  for (const Side& side : side_) {
+    Side now = side;
+    now.gather(x);
+    for (Index s = 0; s < now.node_count(); ++s) {
+      if (now.facet_count() > 0) area[at(now.nodes()[at(s)])] += now.tributary_area(s);
+    }
+  }
+}
+
+std::vector<std::byte> OneSided::history() const {
+  HistoryWriter out;
+  out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
+  out.put(static_cast<std::uint64_t>(evaluated_ ? 1 : 0));
+  out.put(initial_elastic_);
+  out.put(friction_work_);
+  for (std::size_t k = 0; k < 2; ++k) {
+    out.put(loads_[k].work);
+    out.put_all(loads_[k].force_before);
+    out.put_all(loads_[k].x_before);
+  }
+  for (const Pass& pass : pass_) pass.save(out);
+  return out.finish();
+}
+
+void OneSided::restore(std::span<const std::byte> history) {
+  HistoryReader in(history);
+  std::uint64_t started = 0;
+  in.get(started);
+  started_ = started != 0;
+  in.get(started);
+  evaluated_ = started != 0;
+  in.get(initial_elastic_);
+  in.get(friction_work_);
+  for (std::size_t k = 0; k < 2; ++k) {
+    in.get(loads_[k].work);
+    in.get_all(loads_[k].force_before);
+    in.get_all(loads_[k].x_before);
+  }
+  for (Pass& pass : pass_) pass.load(in);
+  in.finish();
+}
+
+}  // namespace abut::contact

@@ -1,0 +1,40 @@
+// TYPE3 (two passes) and TYPE5 (one pass) behind Interface.
+#pragma once
+
+#include <array>
+
+#include "contact/enforce/interface_model.hpp"
+#include "contact/enforce/pass.hpp"
+
+namespace abut::contact {
+
+class OneSided final : public InterfaceModel {
+ public:
+  OneSided(Surface first, Surface second, const Options& options);
+  OneSided(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options);
+
+  void set_surface(int side, const SurfaceState& state) override;
+  void search(const HostState& host) override;
+  StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
+  void commit(double dt) override;
+  void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
+  void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
+  [[nodiscard]] std::span<const Index> nodes_in_contact() const override { return in_contact_; }
+  [[nodiscard]] std::vector<std::byte> history() const override;
+  void restore(std::span<const std::byte> history) override;
+
+ private:
+  Options options_;
+  bool two_passes_;
+  std::array<Side, 2> side_;
+  std::array<SideLoads, 2> loads_;
+  std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
+  std::vector<Index> in_contact_;
+  double friction_work_ = 0.0, friction_step_ = 0.0;
+  double initial_elastic_ = 0.0;  ///< stored before anything moved: initial penetrations
+  bool started_ = false, evaluated_ = false;
+
+  void prepare();
+};
+
+}  // namespace abut::contact

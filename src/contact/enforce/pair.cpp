@@ -1,0 +1,115 @@
+#include "contact/enforce/pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::contact {
+namespace {
+
+// dH/dxi of the free directions: two on a face, one along an edge, none at a corner; in (s, t).
+struct Directions {
+  int count = 0;
+  std::array<std::array<double, 2>, 2> d{};
+};
+
+Directions free_directions(const ClosestPoint& c, bool triangle) {
+  if (c.feature == Feature::corner) return {};
+  if (c.feature == Feature::face) return {2, {{{1.0, 0.0}, {0.0, 1.0}}}};
+  if (triangle) {
+    constexpr std::array<std::array<double, 2>, 3> along{{{1.0, 0.0}, {-1.0, 1.0}, {0.0, 1.0}}};
+    return {1, {along[c.number], {}}};
+  }
+  return {1, {{{c.number % 2 == 0 ? 1.0 : 0.0, c.number % 2 == 0 ? 0.0 : 1.0}, {}}}};
+}
+
+}  // namespace
+
+PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, double gap, double scale,
+                     double node_stiffness, bool half_of_facet) {
+  PairForce result;
+  const ClosestPoint& c = m.closest;
+  const Patch patch = surface.patch(m.facet);
+  const std::array<Index, 4>& corner = surface.surface().local()[at(m.facet)];
+  const std::size_t corners = patch.triangle ? 3 : 4;
+  const Taper t = taper(patch, c.s, c.t);
+  if (c.beyond || t.value <= 0.0) return result;
+
+  double k1 = 0.0;
+  double smallest = 1e300, largest = 0.0;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double k = surface.corner_stiffness(corner[i]);
+    k1 += c.weight[i] * k;
+    smallest = std::min(smallest, k);
+    largest = std::max(largest, k);
+  }
+  // Strips extrapolate: keep the field within its corners' values there.
+  const bool clipped = k1 < smallest || k1 > largest;
+  k1 = std::clamp(k1, smallest, largest);
+  double pair = 0.0;
+  double slope = 0.0;  // dKp/dK1
+  if (half_of_facet) {
+    pair = 0.5 * scale * k1;
+    slope = 0.5 * scale;
+  } else if (k1 > 0.0 && node_stiffness > 0.0) {
+    const double sum = k1 + node_stiffness;
+    pair = scale * k1 * node_stiffness / sum;
+    slope = scale * (node_stiffness / sum) * (node_stiffness / sum);
+  }
+  if (clipped) slope = 0.0;
+
+  const double p = gap - m.distance;
+  const double phi = law.potential(p);
+  result.stiffness = t.value * pair;
+  result.magnitude = result.stiffness * law.force(p);
+  result.potential = result.stiffness * phi;
+  result.on_node = result.magnitude * m.normal;
+
+  const auto gradient = shape_gradient(patch.triangle, c.s, c.t);
+  const Directions free = free_directions(c, patch.triangle);
+  std::array<double, 2> dkappa{};
+  std::array<Vec3, 2> tangent{};
+  std::array<std::array<double, 4>, 2> dh{};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(free.count); ++a) {
+    double dk1 = 0.0;
+    for (std::size_t i = 0; i < corners; ++i) {
+      dh[a][i] = free.d[a][0] * gradient[0][i] + free.d[a][1] * gradient[1][i];
+      dk1 += dh[a][i] * surface.corner_stiffness(corner[i]);
+      tangent[a] += dh[a][i] * patch.x[i];
+    }
+    dkappa[a] = t.value * slope * dk1 + pair * (free.d[a][0] * t.ds + free.d[a][1] * t.dt);
+  }
+  std::array<double, 2> shift{};  // c^a
+  const Vec3 r = x - c.point;
+  if (dkappa[0] != 0.0 || dkappa[1] != 0.0) {
+    const double a11 = squared_norm(tangent[0]);
+    if (free.count == 1) {
+      shift[0] = a11 > 0.0 ? phi * dkappa[0] / a11 : 0.0;
+    } else {
+      const double a22 = squared_norm(tangent[1]);
+      double a12 = dot(tangent[0], tangent[1]);
+      if (!patch.triangle) a12 -= 0.25 * dot(r, (patch.x[0] - patch.x[1]) + (patch.x[2] - patch.x[3]));
+      const double det = a11 * a22 - a12 * a12;
+      if (det > 1e-3 * a11 * a22) {
+        shift = {phi * (a22 * dkappa[0] - a12 * dkappa[1]) / det, phi * (a11 * dkappa[1] - a12 * dkappa[0]) / det};
+      }
+    }
+    const Vec3 sideways = shift[0] * tangent[0] + shift[1] * tangent[1];
+    result.on_node -= sideways;
+    // Cross terms kappa' phi' and, in a strip, T'' phi: |T''| <= 8 and |T'| <= 1.54 in units of the strip.
+    if (phi > 0.0) result.extra_tangent = norm(sideways) * law.force(p) / phi;
+    if (t.value < 1.0) {
+      const double width = border_strip * std::sqrt(patch.triangle ? a11 : 4.0 * a11);
+      if (width > 0.0) result.extra_tangent += pair * 8.0 * phi / (width * width);
+    }
+  }
+  if (c.feature != Feature::face && m.distance < 0.0) {
+    // Behind an inward fold the direction turns with radius |d|.
+    result.extra_tangent += std::min(result.magnitude / -m.distance, 10.0 * result.stiffness * law.tangent(p));
+  }
+  for (std::size_t i = 0; i < corners; ++i) {
+    result.on_facet[i] = -c.weight[i] * result.on_node - (shift[0] * dh[0][i] + shift[1] * dh[1][i]) * r;
+  }
+  return result;
+}
+
+}  // namespace abut::contact

@@ -1,0 +1,137 @@
+// One pass: the nodes of one side held against the facets of the other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "contact/enforce/history.hpp"
+#include "contact/enforce/law.hpp"
+#include "contact/enforce/pair.hpp"
+#include "contact/search/candidates.hpp"
+#include "contact/search/incremental.hpp"
+#include "contact/search/nearest.hpp"
+
+namespace abut::contact {
+
+/// Contact forces on the nodes of a side: from being held, and as corners of facets that hold others. Kept apart so that
+/// neither the order of the passes nor that of the surfaces shows in the sums.
+struct SideLoads {
+  std::vector<Vec3> own_normal, own_tangential, reaction_normal, reaction_tangential;
+  std::vector<double> own_stiffness, reaction_stiffness;
+  std::vector<Vec3> force_before, x_before;  ///< of the last committed step
+  double work = 0.0;                         ///< committed: sum (f_old + f_new)/2 . dx
+  double work_step = 0.0;                    ///< of the step that evaluate() saw
+
+  void resize(std::size_t nodes);
+  void clear();
+  [[nodiscard]] Vec3 total(std::size_t s) const {
+    return (own_normal[s] + own_tangential[s]) + (reaction_normal[s] + reaction_tangential[s]);
+  }
+};
+
+/// A material point of the surface.
+struct SurfacePoint {
+  std::array<double, 4> weight{};
+  std::int64_t facet = no_index;
+};
+
+/// What a held node remembers from step to step (no padding: it is written to the history as it is).
+struct NodeState {
+  Vec3 normal;                   ///< direction of the last contact
+  Vec3 slip;                     ///< return mapping: elastic slip in the anchor's facet frame; anchors: F0
+  Vec3 slip_normal;              ///< return mapping: contact normal in the same frame
+  Vec3 friction;                 ///< friction force of the last step, as it acted on the surface
+  SurfacePoint anchor;           ///< return mapping: last contact point; anchors: where F0 acted
+  SurfacePoint last;             ///< last contact point
+  double tangential_stiffness = 0.0;
+  double rate = 0.0;             ///< speed of opening in the last step
+  double acceleration = 0.0;     ///< that the contact force gave to the opening
+  std::int32_t facet = no_index;
+  std::uint8_t held = 0;
+  std::uint8_t ignored = 0;      ///< lies behind and came from behind: not met until it is seen in front
+  std::uint8_t anchored = 0;
+  std::uint8_t spare = 0;
+};
+
+struct PassTotals {
+  Vec3 normal, tangential;  ///< on the held nodes
+  double potential = 0.0, stick = 0.0, dissipated = 0.0;
+  double largest_penetration = 0.0, largest_approach = 0.0;
+  double kinematic_step = 1e30;
+  Index kinematic_node = no_index;
+  Index in_contact = 0, crossed = 0;
+};
+
+class Pass {
+ public:
+  Pass(const Options& options, bool one_pass, std::size_t held_nodes);
+
+  /// Once, on the first geometry: depth limits, nearest nodes, anchors of contacts that exist at the start.
+  void start(const Side& held, const Side& surface);
+  void search(const Side& held, const Side& surface, const SideLoads& surface_loads);
+  PassTotals evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads);
+  /// Outside the time window: contacts end.
+  PassTotals rest();
+  void commit();
+
+  /// Host indices of held nodes with P > 0.
+  [[nodiscard]] const std::vector<Index>& in_contact() const { return in_contact_; }
+  void save(HistoryWriter& out) const;
+  void load(HistoryReader& in);
+  /// Forces the next search to rebuild its lists (activity changed).
+  void invalidate() { stale_ = true; }
+
+ private:
+  // One node in this cycle.
+  struct Touch {
+    Index facet = no_index;
+    bool known = false;    ///< facet, point, normal, distance are valid
+    bool contact = false;
+    bool fresh_hit = false;
+    std::array<double, 4> weight{};
+    Vec3 point, normal;
+    double distance = 0.0;
+    double area = 0.0;     ///< of the facet
+    PairForce pair;
+  };
+  struct Kinematics {
+    double rate = 0.0;            ///< of opening, n.(v - v_point)
+    double inverse_mass = 0.0;    ///< of the pair; 0: unknown
+    Vec3 tangential_velocity;
+  };
+
+  Options options_;
+  NormalLaw law_;
+  bool half_of_facet_ = false;
+  bool stale_ = true;
+  bool started_ = false;
+  double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
+  std::vector<double> depth_;  ///< per facet: how far behind a node is still met
+  std::vector<NodeState> state_, next_;
+  std::vector<Tracked> tracked_;
+  std::vector<Index> in_contact_;
+  std::vector<Touch> touches_;
+  Candidates candidates_;
+  IncrementalSearch incremental_;
+  double surface_step_ = 0.0;  ///< largest motion of the surface in the last step, relative to its mean
+  Vec3 mean_step_;
+
+  [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
+  void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
+                       const SideLoads& surface_loads, Index i, Touch& touch);
+  void measure_plain(const Side& held, const Side& surface, Index i, Touch& touch);
+  [[nodiscard]] Index swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads,
+                                  Index i) const;
+  [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
+  void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads, Index i,
+                   Touch& touch, bool rub, PassTotals& totals);
+  [[nodiscard]] Vec3 rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion,
+                                           double limit, double fraction, const NodeState& before, NodeState& after,
+                                           PassTotals& totals) const;
+  [[nodiscard]] Vec3 rub_by_anchor(const Side& surface, const Touch& touch, double limit, const NodeState& before, NodeState& after,
+                                   PassTotals& totals) const;
+  void look_ahead(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i) const;
+};
+
+}  // namespace abut::contact

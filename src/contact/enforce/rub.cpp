@@ -1,0 +1,115 @@
+// The two friction rules of a pass.
+#include <cmath>
+
+#include "contact/enforce/friction.hpp"
+#include "contact/enforce/pass.hpp"
+
+namespace abut::contact {
+namespace {
+
+// Right-handed unit frame that moves with a facet: along its first diagonal (first side of a triangle), normal last.
+struct Frame {
+  Vec3 a, b, n;
+  [[nodiscard]] Vec3 to_world(const Vec3& v) const { return v.x * a + v.y * b + v.z * n; }
+  [[nodiscard]] Vec3 to_local(const Vec3& v) const { return {dot(v, a), dot(v, b), dot(v, n)}; }
+};
+
+Frame frame_of(const Side& surface, Index f) {
+  const Patch p = surface.patch(f);
+  const Vec3 along = p.triangle ? p.x[1] - p.x[0] : p.x[2] - p.x[0];
+  const Vec3 across = p.triangle ? p.x[2] - p.x[0] : p.x[3] - p.x[1];
+  const Vec3 a = normalized(along);
+  const Vec3 n = normalized(cross(along, across));
+  return {a, cross(n, a), n};
+}
+
+Vec3 point_of(const Side& surface, const SurfacePoint& p) {
+  const std::array<Index, 4>& corner = surface.surface().local()[static_cast<std::size_t>(p.facet)];
+  Vec3 x{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (p.weight[i] != 0.0) x += p.weight[i] * surface.x()[at(corner[i])];
+  }
+  return x;
+}
+
+}  // namespace
+
+Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion, double limit,
+                                 double fraction, const NodeState& before, NodeState& after, PassTotals& totals) const {
+  const double stiffness = options_.tangential_ratio * touch.pair.stiffness;
+  if (stiffness <= 0.0) return {};
+  Vec3 elastic{};
+  Vec3 force_before{};
+  Vec3 increment{};
+  if (before.anchored != 0) {
+    const auto facet = static_cast<Index>(before.anchor.facet);
+    const Frame frame = frame_of(surface, facet);
+    elastic = turned(frame.to_world(before.slip), frame.to_world(before.slip_normal), touch.normal);
+    elastic -= dot(elastic, touch.normal) * touch.normal;
+    force_before = before.tangential_stiffness * elastic;
+    increment = touch.point - point_of(surface, before.anchor);
+  } else {
+    // C0 is where the node came through the gap: friction acts from the first step on.
+    increment = (fraction * host.dt) * motion.tangential_velocity;
+  }
+  increment -= dot(increment, touch.normal) * touch.normal;
+  const SlipResult result = slip(elastic, force_before, increment, stiffness, limit);
+  totals.dissipated += result.dissipated;
+  totals.stick += 0.5 * stiffness * squared_norm(result.elastic);
+
+  const Frame frame = frame_of(surface, touch.facet);
+  after.anchored = 1;
+  after.anchor = {touch.weight, touch.facet};
+  after.last = after.anchor;
+  after.slip = frame.to_local(result.elastic);
+  after.slip_normal = frame.to_local(touch.normal);
+  after.tangential_stiffness = stiffness;
+  after.friction = stiffness * result.elastic;
+  return after.friction;
+}
+
+// numerics.md 7.4.3, to the letter; only its energy is ours (7.4.4 says why).
+Vec3 Pass::rub_by_anchor(const Side& surface, const Touch& touch, double limit, const NodeState& before, NodeState& after,
+                         PassTotals& totals) const {
+  const double stiffness = options_.tangential_ratio * touch.pair.stiffness;
+  const SurfacePoint here{touch.weight, touch.facet};
+  after.last = here;
+  after.tangential_stiffness = stiffness;
+  if (before.anchored == 0) {
+    after.anchored = 1;
+    after.anchor = here;
+    after.slip = {};
+    after.friction = {};
+    return {};
+  }
+  const Vec3 trial = before.slip + stiffness * (touch.point - point_of(surface, before.anchor));
+  const Vec3& n = touch.normal;
+  Vec3 direction = trial - dot(trial, n) * n;
+  const double tangential = norm(direction);
+  if (tangential > 0.0) {
+    direction = direction / tangential;
+  } else {
+    const double flat = std::sqrt(n.x * n.x + n.y * n.y);
+    direction = flat > 0.0 ? Vec3{n.y / flat, -n.x / flat, 0.0} : Vec3{1.0, 0.0, 0.0};
+  }
+  const double size = norm(trial);
+  const bool slips = size > limit;
+  const Vec3 force = (slips ? limit : size) * direction;
+  if (slips) {
+    after.slip = force;
+    after.anchor = here;
+  }
+  const double stored = stiffness > 0.0 ? 0.5 * squared_norm(force) / stiffness : 0.0;
+  const double stored_before =
+      before.tangential_stiffness > 0.0 ? 0.5 * squared_norm(before.friction) / before.tangential_stiffness : 0.0;
+  if (slips) {
+    const Vec3 moved = touch.point - point_of(surface, before.last);
+    const double lost = 0.5 * dot(before.friction + force, moved) - (stored - stored_before);
+    if (lost > 0.0) totals.dissipated += lost;
+  }
+  totals.stick += stored;
+  after.friction = force;
+  return force;
+}
+
+}  // namespace abut::contact

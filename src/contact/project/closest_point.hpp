@@ -1,0 +1,66 @@
+// Closest point on one facet whose free borders are extended by a taper strip.
+//
+// Facet: bilinear X(s,t) = sum H_i x_i (numerics.md 7.3.6) or a plane triangle (s, t: its second and third barycentric
+// coordinate). A side that is a free border of the surface is extended by a strip of a tenth of the facet's length, along the
+// same bilinear (or plane) form; there the taper T falls from 1 to 0 as (1 - u^2)^2, u the overshoot over the strip's
+// width. Contact that slides over a free border so ends continuously, and moments stay balanced (weights extrapolate).
+//
+// Bilinear: projected Newton on |x - X|^2 over the box of (s,t), active set at its bounds, Gauss-Newton where the Hessian is
+// not positive, halved steps until the distance falls: descends from every start, so it always ends in a minimum; a second set
+// of starts (the corners) serves warped facets seen from far, where the minimum need not be unique.
+// Triangle: Ericson, Real-Time Collision Detection (2005), 5.1.5.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "abut/vec3.hpp"
+
+namespace abut::contact {
+
+/// Corners and the sides that are free borders.
+struct Patch {
+  std::array<Vec3, 4> x;
+  bool triangle = false;
+  std::uint8_t borders = 0;  ///< bit e: side e (corner e to e + 1) is a free border
+};
+
+enum class Feature : std::uint8_t { face, edge, corner };
+
+/// Fraction of a side's length by which a free border is extended.
+inline constexpr double border_strip = 0.1;
+
+struct ClosestPoint {
+  Feature feature = Feature::face;
+  std::uint8_t number = 0;         ///< edge or corner number
+  bool beyond = false;             ///< at the outer end of a strip (or past it): no contact
+  double s = 0.0, t = 0.0;
+  double squared_distance = 0.0;
+  Vec3 point;
+  std::array<double, 4> weight{};  ///< H_i, sum 1
+};
+
+/// Closest point of `patch` (with its strips) to x.
+[[nodiscard]] ClosestPoint closest_point(const Patch& patch, const Vec3& x);
+
+/// Weights H_i at (s, t).
+[[nodiscard]] std::array<double, 4> shape(bool triangle, double s, double t);
+/// dH_i/ds, dH_i/dt at (s, t).
+[[nodiscard]] std::array<std::array<double, 4>, 2> shape_gradient(bool triangle, double s, double t);
+/// Position, and the two tangents dX/ds, dX/dt, at (s, t).
+[[nodiscard]] Vec3 position(const Patch& patch, double s, double t);
+[[nodiscard]] std::array<Vec3, 2> tangents(const Patch& patch, double s, double t);
+/// Unit normal at (s, t); zero where the facet is degenerate.
+[[nodiscard]] Vec3 normal_at(const Patch& patch, double s, double t);
+
+/// Taper T(s, t) and its gradient: 1 on the facet, falling to 0 over the strips.
+struct Taper {
+  double value = 1.0;
+  double ds = 0.0, dt = 0.0;
+};
+[[nodiscard]] Taper taper(const Patch& patch, double s, double t);
+
+/// Convergence of the projection in (s, t): |Newton step| below this.
+inline constexpr double projection_tolerance = 1e-13;
+
+}  // namespace abut::contact

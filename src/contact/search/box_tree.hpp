@@ -1,0 +1,76 @@
+// Bounding-box tree over facets or points: build O(N log N), query by a box. Results never depend on its shape: it only
+// leaves out what a box test excludes, and callers take minima with ties broken by index.
+#pragma once
+
+#include <vector>
+
+#include "abut/types.hpp"
+#include "abut/vec3.hpp"
+
+namespace abut::contact {
+
+struct Bounds {
+  Vec3 low{1e300, 1e300, 1e300};
+  Vec3 high{-1e300, -1e300, -1e300};
+
+  void include(const Vec3& p) {
+    for (int k = 0; k < 3; ++k) {
+      if (p[k] < low[k]) low[k] = p[k];
+      if (p[k] > high[k]) high[k] = p[k];
+    }
+  }
+  void include(const Bounds& b) {
+    include(b.low);
+    include(b.high);
+  }
+  void inflate(double by) {
+    low -= Vec3{by, by, by};
+    high += Vec3{by, by, by};
+  }
+  [[nodiscard]] bool meets(const Bounds& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z && b.low.z <= high.z;
+  }
+};
+
+class BoxTree {
+ public:
+  /// Median splits along the widest side, leaves of at most eight boxes.
+  void build(const std::vector<Bounds>& boxes);
+
+  /// Calls visit(i) for every box i that meets `query`.
+  template <class Visit>
+  void query(const Bounds& query, Visit&& visit) const {
+    if (nodes_.empty()) return;
+    Index stack[64];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(stack[--depth])];
+      if (!node.bounds.meets(query)) continue;
+      if (node.count > 0) {
+        for (Index k = node.first; k < node.first + node.count; ++k) {
+          const Index box = items_[static_cast<std::size_t>(k)];
+          if (boxes_[static_cast<std::size_t>(box)].meets(query)) visit(box);
+        }
+      } else {
+        stack[depth++] = node.first;
+        stack[depth++] = node.second;
+      }
+    }
+  }
+
+ private:
+  struct Node {
+    Bounds bounds;
+    Index first = 0;   ///< leaf: first item; else: a child
+    Index second = 0;  ///< the other child
+    Index count = 0;   ///< leaf: items
+  };
+  std::vector<Node> nodes_;
+  std::vector<Index> items_;
+  std::vector<Bounds> boxes_;
+
+  Index split(Index first, Index last);
+};
+
+}  // namespace abut::contact

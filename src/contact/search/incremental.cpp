@@ -1,0 +1,120 @@
+#include "contact/search/incremental.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::contact {
+namespace {
+
+// Smallest barycentric coordinate of x in the corner triangle of facet f at surface node n.
+double corner_measure(const Side& surface, Index f, Index n, const Vec3& x) {
+  const std::array<Index, 4>& node = surface.surface().local()[at(f)];
+  std::size_t j = 0;
+  while (j < 3 && node[j] != n) ++j;
+  std::size_t next = (j + 1) % 4;
+  const std::size_t previous = (j + 3) % 4;
+  if (j == 2 && node[2] == node[3]) next = 0;
+  const Vec3 origin = surface.x()[at(node[j])];
+  const Vec3 u = surface.x()[at(node[next])] - origin;
+  const Vec3 w = surface.x()[at(node[previous])] - origin;
+  const Vec3 normal = cross(u, w);
+  const Vec3 d = x - origin;
+  const double scale = squared_norm(normal);
+  if (scale <= 0.0) return -1e300;
+  const double to_next = dot(cross(d, w), normal) / scale;
+  const double to_previous = dot(cross(u, d), normal) / scale;
+  return std::min({1.0 - to_next - to_previous, to_next, to_previous});
+}
+
+}  // namespace
+
+Index choose_facet(const Side& surface, Index n, Index previous, const Vec3& x) {
+  Index best = no_index;
+  double best_measure = -1e301;
+  if (previous != no_index) {
+    best = previous;
+    best_measure = corner_measure(surface, previous, n, x);
+    if (best_measure >= 0.0) return previous;
+  }
+  for (const Index f : surface.surface().facets_at(n)) {
+    if (f == previous) continue;
+    const double measure = corner_measure(surface, f, n, x);
+    if (measure >= 0.0) return f;
+    if (measure > best_measure) {
+      best_measure = measure;
+      best = f;
+    }
+  }
+  return best;
+}
+
+void IncrementalSearch::start(const Side& held, const Side& surface, std::vector<Tracked>& tracked) {
+  tracked.assign(at(held.node_count()), {});
+  for (Index i = 0; i < held.node_count(); ++i) {
+    Tracked& t = tracked[at(i)];
+    double best = 1e300;
+    for (Index s = 0; s < surface.node_count(); ++s) {
+      if (surface.nodes()[at(s)] == held.nodes()[at(i)]) continue;
+      const double away = squared_norm(held.x()[at(i)] - surface.x()[at(s)]);
+      if (away <= best) {
+        best = away;
+        t.node = s;
+      }
+    }
+    if (t.node != no_index) t.facet = choose_facet(surface, t.node, no_index, held.x()[at(i)]);
+  }
+}
+
+void IncrementalSearch::refresh(const Side& surface, double gap) {
+  moved_ = 0.0;
+  for (std::size_t s = 0; s < then_.size(); ++s) moved_ = std::max(moved_, squared_norm(surface.x()[s] - then_[s]));
+  moved_ = std::sqrt(moved_);
+  if (!then_.empty() && moved_ <= 0.25 * reach_) return;
+  then_.assign(surface.x().begin(), surface.x().end());
+  boxes_.resize(then_.size());
+  for (std::size_t s = 0; s < then_.size(); ++s) boxes_[s] = {then_[s], then_[s]};
+  tree_.build(boxes_);
+  moved_ = 0.0;
+  double diagonal = 0.0;
+  for (const auto& node : surface.surface().local()) {
+    diagonal = std::max({diagonal, squared_norm(then_[at(node[2])] - then_[at(node[0])]), squared_norm(then_[at(node[3])] - then_[at(node[1])])});
+  }
+  // Whoever can touch a facet has one of its nodes within a diagonal.
+  reach_ = std::sqrt(diagonal) + std::abs(gap);
+}
+
+void IncrementalSearch::update(const Side& held, const Side& surface, std::vector<Tracked>& tracked, double gap) {
+  refresh(surface, gap);
+  for (Index i = 0; i < held.node_count(); ++i) {
+    Tracked& t = tracked[at(i)];
+    if (t.node == no_index) continue;
+    const Vec3 x = held.x()[at(i)];
+    const Index own = held.nodes()[at(i)];
+    double best = 1e300;
+    Index nearest = t.node;
+    for (const Index f : surface.surface().facets_at(t.node)) {
+      for (const Index s : surface.surface().local()[at(f)]) {
+        const double away = squared_norm(x - surface.x()[at(s)]);
+        if (away < best && surface.nodes()[at(s)] != own) {
+          best = away;
+          nearest = s;
+        }
+      }
+    }
+    const double radius = std::min(std::sqrt(best), reach_);
+    Bounds box{x, x};
+    box.inflate(radius + moved_);
+    Index nearer = no_index;
+    tree_.query(box, [&](Index s) {
+      const double away = squared_norm(x - surface.x()[at(s)]);
+      if ((away < best || (away == best && nearer != no_index && s < nearer)) && surface.nodes()[at(s)] != own) {
+        best = away;
+        nearer = s;
+      }
+    });
+    t.node = nearer == no_index ? nearest : nearer;
+    t.facet = choose_facet(surface, t.node, t.facet, x);
+  }
+}
+
+}  // namespace abut::contact

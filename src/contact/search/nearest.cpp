@@ -1,0 +1,79 @@
+#include "contact/search/nearest.hpp"
+
+#include <cmath>
+
+namespace abut::contact {
+namespace {
+
+constexpr double same_way = -0.5;
+
+bool admissible(const Measure& m, const HeldBy& held, bool held_in_front) {
+  return dot(m.normal, held.normal) > same_way || (held_in_front && m.distance >= 0.0);
+}
+
+}  // namespace
+
+Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest, const Vec3& x) {
+  Measure m{f, closest, {}, 0.0};
+  const Vec3 r = x - closest.point;
+  const Vec3 outward = surface.pseudonormal(f, closest);
+  m.normal = outward;
+  m.distance = dot(outward, r);
+  if (closest.feature == Feature::face) return m;
+  const double length = std::sqrt(closest.squared_distance);
+  const Patch patch = surface.patch(f);
+  const double size = std::sqrt(squared_norm(patch.x[2] - patch.x[0]));
+  if (length > 1e-10 * size) {
+    const bool front = m.distance >= 0.0;
+    m.normal = front ? r / length : -r / length;
+    m.distance = front ? length : -length;
+  }
+  return m;
+}
+
+Measure nearest(const Side& surface, const Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
+  Measure best;
+  bool held_in_front = false;
+  double best_distance = 1e300;
+  if (held.facet != no_index && surface.active(held.facet)) {
+    best = signed_measure(surface, held.facet, closest_point(surface.patch(held.facet), x), x);
+    held_in_front = best.distance >= 0.0;
+    best_distance = std::sqrt(best.closest.squared_distance);
+  }
+  ClosestPoint closest;
+  Index facet = no_index;
+  for (const Candidates::Entry& entry : candidates.of(node)) {
+    if (entry.distance - candidates.slack() > best_distance || entry.facet == held.facet || !surface.active(entry.facet)) continue;
+    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
+    const double distance = std::sqrt(other.squared_distance);
+    if (distance >= best_distance) continue;
+    if (held.facet != no_index && !admissible(signed_measure(surface, entry.facet, other, x), held, held_in_front)) continue;
+    best_distance = distance;
+    closest = other;
+    facet = entry.facet;
+  }
+  return facet == no_index ? best : signed_measure(surface, facet, closest, x);
+}
+
+Measure descend_to_nearest(const Side& surface, Index facet, const Vec3& x) {
+  Measure best = signed_measure(surface, facet, closest_point(surface.patch(facet), x), x);
+  const HeldBy held{facet, best.normal};
+  for (bool better = true; better;) {
+    better = false;
+    const Index from = best.facet;
+    for (const Index corner : surface.surface().local()[at(from)]) {
+      for (const Index f : surface.surface().facets_at(corner)) {
+        if (!surface.active(f)) continue;
+        const ClosestPoint other = closest_point(surface.patch(f), x);
+        if (other.squared_distance >= best.closest.squared_distance) continue;
+        const Measure m = signed_measure(surface, f, other, x);
+        if (!admissible(m, held, false)) continue;
+        best = m;
+        better = true;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace abut::contact

@@ -1,0 +1,34 @@
+// The truth about one node: the closest point of the one-sided surface (docs/theory/contact.md, "Who touches").
+#pragma once
+
+#include "contact/search/candidates.hpp"
+
+namespace abut::contact {
+
+/// A node measured against a surface.
+struct Measure {
+  Index facet = no_index;
+  ClosestPoint closest;
+  Vec3 normal;            ///< unit, along which the contact pushes the node
+  double distance = 0.0;  ///< signed: > 0 in front
+  [[nodiscard]] bool found() const { return facet != no_index; }
+};
+
+/// Gives the closest point on facet f its sign and direction.
+[[nodiscard]] Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest, const Vec3& x);
+
+/// What a held node remembers.
+struct HeldBy {
+  Index facet = no_index;  ///< no_index: a free node
+  Vec3 normal;
+};
+
+/// Free node: the smallest |distance| among the candidates. Held node: the smallest |distance| among facets that push in
+/// about the same direction (n . n_held > -1/2), or any facet it is in front of while it is in front of its own: it is so
+/// never handed to the far side of a thin body.
+[[nodiscard]] Measure nearest(const Side& surface, const Candidates& candidates, Index node, const Vec3& x, const HeldBy& held);
+
+/// A swept hit: walks from `facet` over neighbours to the closest point that pushes the same way.
+[[nodiscard]] Measure descend_to_nearest(const Side& surface, Index facet, const Vec3& x);
+
+}  // namespace abut::contact

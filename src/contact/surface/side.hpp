@@ -1,0 +1,67 @@
+// One surface of an interface as it is now: positions, stiffness fields, activity, borders.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/contact/interface.hpp"
+#include "contact/project/closest_point.hpp"
+
+namespace abut::contact {
+
+inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+class Side {
+ public:
+  Side() = default;
+  /// @param canonical  facets in an order that does not depend on how they were listed
+  Side(Surface surface, bool canonical);
+  /// Nodes without facets (the held nodes of nodes_to_surface), in the order given.
+  Side(std::vector<Index> nodes, std::vector<double> stiffness);
+
+  /// Facet values in the order in which the host listed its facets; for nodes without facets: stiffness and active per node.
+  /// @throws std::invalid_argument on a wrong length or a negative or non-finite stiffness
+  void set(const SurfaceState& state, bool third_node_twice);
+
+  [[nodiscard]] const Surface& surface() const { return surface_; }
+  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }
+  [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
+  [[nodiscard]] Index facet_count() const { return surface_.facet_count(); }
+  [[nodiscard]] bool active(Index f) const { return active_[at(f)] != 0; }
+  /// False when all facets around the node are eroded.
+  [[nodiscard]] bool node_active(Index s) const { return node_active_[at(s)] != 0; }
+  [[nodiscard]] double facet_stiffness(Index f) const { return facet_stiffness_[at(f)]; }
+  /// Own stiffness of a node: a quarter (third) of each facet around it.
+  [[nodiscard]] double node_stiffness(Index s) const { return node_stiffness_[at(s)]; }
+  /// Facet stiffness averaged at a node: the corner values of a field that is continuous over the surface.
+  [[nodiscard]] double corner_stiffness(Index s) const { return corner_stiffness_[at(s)]; }
+  [[nodiscard]] double thickness(Index f) const { return thickness_.empty() ? 0.0 : thickness_[at(f)]; }
+  [[nodiscard]] bool has_thickness() const { return !thickness_.empty(); }
+
+  /// Copies the host's positions of this surface's nodes.
+  void gather(std::span<const Vec3> x);
+  [[nodiscard]] std::span<const Vec3> x() const { return x_; }
+  [[nodiscard]] Patch patch(Index f) const;
+
+  /// Unit normal of the surface at a closest point: of the facet on a face, the mean of two on an edge, the angle-weighted mean
+  /// at a corner [Baerentzen, Aanaes 2005]. Its sign against x - point tells in front from behind.
+  [[nodiscard]] Vec3 pseudonormal(Index f, const ClosestPoint& point) const;
+
+  [[nodiscard]] double facet_area(Index f) const;
+  /// Facet areas over their corners at node s.
+  [[nodiscard]] double tributary_area(Index s) const;
+  /// Mean square root of the facets' areas.
+  [[nodiscard]] double mean_size() const;
+
+ private:
+  Surface surface_;
+  std::vector<Index> nodes_;
+  std::vector<Index> listed_;  ///< facet number as the host listed it
+  std::vector<std::uint8_t> active_, node_active_, borders_;
+  std::vector<double> facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_;
+  std::vector<Vec3> x_;
+};
+
+}  // namespace abut::contact
