@@ -302,10 +302,9 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double moved_in = closing * host.dt;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
-    Switching s{touch.pair.magnitude, touch.pair.potential, penetration, host.dt};
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const double opening = motion.rate + host.dt * (touch.pair.magnitude * motion.inverse_mass + others);
-    factor = switched_force(s, fresh ? moved_in : 0.0, opening) / touch.pair.magnitude;
+    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, motion.inverse_mass, others};
+    factor = switched_force(s, fresh) / touch.pair.magnitude;
   }
   const double normal_force = factor * touch.pair.magnitude;
   const Vec3 on_node = factor * touch.pair.on_node;
