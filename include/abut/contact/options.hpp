@@ -35,10 +35,12 @@ struct Rules {
   bool switch_correction = true;
   /// true: no limit on how deep a node may lie behind a facet.
   bool unlimited_depth = false;
+  /// false: the interface hands no stiffness and no kinematic limit to the time step.
+  bool limits_step = true;
 
   [[nodiscard]] static Rules standard() { return {}; }
   [[nodiscard]] static Rules reference() {
-    return {Law::constant, Edges::plain, true, true, true, true, false, true};
+    return {Law::constant, Edges::plain, true, true, true, true, false, true, false};
   }
 };
 
@@ -60,7 +62,8 @@ struct StepResult {
   double elastic = 0.0;         ///< CE: stored now in normal springs and elastic stick
   double friction_work = 0.0;   ///< FW: dissipated by slip, never decreases
   double damping_work = 0.0;    ///< DW
-  double made = 0.0;            ///< CX = discrete work of the contact forces + CE + FW + DW
+  /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW: energy made (> 0) or lost by the numerics
+  double made = 0.0;
   Vec3 normal_force;            ///< on the second (main) surface
   Vec3 tangential_force;
   Index in_contact = 0;         ///< held nodes with P > 0, both passes

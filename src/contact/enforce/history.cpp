@@ -13,6 +13,12 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {  // FNV-1a
 
 }  // namespace
 
+void HistoryWriter::append(const void* from, std::size_t length) {
+  const std::size_t size = bytes_.size();
+  bytes_.resize(size + length);
+  if (length > 0) std::memcpy(bytes_.data() + size, from, length);
+}
+
 std::vector<std::byte> HistoryWriter::finish() {
   const std::uint64_t header[4] = {history_magic, history_version, bytes_.size(), checksum(std::span(bytes_).subspan(head))};
   std::memcpy(bytes_.data(), header, head);

@@ -21,20 +21,19 @@ class HistoryWriter {
   template <class T>
   void put(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const auto from = std::as_bytes(std::span(&value, 1));
-    bytes_.insert(bytes_.end(), from.begin(), from.end());
+    append(&value, sizeof(T));
   }
   template <class T>
   void put_all(const std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     put(static_cast<std::uint64_t>(values.size()));
-    const auto from = std::as_bytes(std::span(values));
-    bytes_.insert(bytes_.end(), from.begin(), from.end());
+    append(values.data(), values.size() * sizeof(T));
   }
   [[nodiscard]] std::vector<std::byte> finish();
 
  private:
   std::vector<std::byte> bytes_;
+  void append(const void* from, std::size_t length);
 };
 
 class HistoryReader {

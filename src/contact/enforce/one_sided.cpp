@@ -88,11 +88,14 @@ void OneSided::search(const HostState& host) {
     side_[k].gather(host.x);
     if (!started_) loads_[k].x_before.assign(side_[k].x().begin(), side_[k].x().end());
   }
-  const bool first = !started_;
+  if (!started_) {
+    pass_[0].start(side_[0], side_[1]);
+    if (two_passes_) pass_[1].start(side_[1], side_[0]);
+  }
   started_ = true;
-  if (!first && (host.time < options_.birth || host.time > options_.death)) return;
-  pass_[0].search(side_[0], side_[1], loads_[0], loads_[1], first);
-  if (two_passes_) pass_[1].search(side_[1], side_[0], loads_[1], loads_[0], first);
+  if (host.time < options_.birth || host.time > options_.death) return;
+  pass_[0].search(side_[0], side_[1], loads_[1]);
+  if (two_passes_) pass_[1].search(side_[1], side_[0], loads_[0]);
 }
 
 StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
@@ -123,7 +126,9 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   result.elastic = (total[0].potential + total[0].stick) + (total[1].potential + total[1].stick);
   result.friction_work = friction_work_ + friction_step_;
   const double work = (loads_[0].work + loads_[0].work_step) + (loads_[1].work + loads_[1].work_step);
-  result.made = work + result.elastic + result.friction_work + result.damping_work;
+  if (!evaluated_) initial_elastic_ = result.elastic;
+  evaluated_ = true;
+  result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work;
   result.normal_force = total[1].normal - total[0].normal;
   result.tangential_force = total[1].tangential - total[0].tangential;
   result.in_contact = total[0].in_contact + total[1].in_contact;
@@ -176,6 +181,8 @@ void OneSided::add_nodal_area(std::span<const Vec3> x, std::span<double> area) c
 std::vector<std::byte> OneSided::history() const {
   HistoryWriter out;
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
+  out.put(static_cast<std::uint64_t>(evaluated_ ? 1 : 0));
+  out.put(initial_elastic_);
   out.put(friction_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     out.put(loads_[k].work);
@@ -191,6 +198,9 @@ void OneSided::restore(std::span<const std::byte> history) {
   std::uint64_t started = 0;
   in.get(started);
   started_ = started != 0;
+  in.get(started);
+  evaluated_ = started != 0;
+  in.get(initial_elastic_);
   in.get(friction_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     in.get(loads_[k].work);

@@ -31,7 +31,8 @@ class OneSided final : public InterfaceModel {
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
   std::vector<Index> in_contact_;
   double friction_work_ = 0.0, friction_step_ = 0.0;
-  bool started_ = false;
+  double initial_elastic_ = 0.0;  ///< stored before anything moved: initial penetrations
+  bool started_ = false, evaluated_ = false;
 
   void prepare();
 };

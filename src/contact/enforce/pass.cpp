@@ -66,20 +66,17 @@ void Pass::start(const Side& held, const Side& surface) {
     const Vec3 x = held.x()[at(i)];
     const Patch patch = surface.patch(t.facet);
     const PlainPoint p = project_plain(patch, x, options_.gap, options_.rules.area_ratio_projection);
-    const PlainPoint bare = project_plain(patch, x, 0.0, options_.rules.area_ratio_projection);
-    // project_plain clips; the unclipped overshoot is known from `inside` only to 5 %: test the point's distance from the facet.
-    const double overshoot = norm((x - bare.distance * bare.normal) - bare.point);
-    if (!p.inside || overshoot > starter_tolerance * 0.5 * std::sqrt(p.area) || p.distance - options_.gap > 0.0) continue;
+    const double limit = 1.0 + starter_tolerance;
+    if (std::abs(p.raw_s) > limit || std::abs(p.raw_t) > limit || p.distance - options_.gap > 0.0) continue;
     state_[at(i)].anchored = 1;
     state_[at(i)].anchor = {p.weight, t.facet};
     state_[at(i)].last = state_[at(i)].anchor;
   }
 }
 
-void Pass::search(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, bool first) {
-  if (first) start(held, surface);
+void Pass::search(const Side& held, const Side& surface, const SideLoads& surface_loads) {
   if (!closest()) {
-    if (!first) incremental_.update(held, surface, tracked_, options_.gap);
+    incremental_.update(held, surface, tracked_, options_.gap);
     return;
   }
   smallest_depth_ = 1e300;
@@ -101,14 +98,13 @@ void Pass::search(const Side& held, const Side& surface, const SideLoads& held_l
   stale_ = false;
   surface_step_ = 0.0;
   mean_step_ = {};
-  if (first || surface.node_count() == 0) return;
+  if (surface.node_count() == 0) return;
   for (std::size_t s = 0; s < surface.x().size(); ++s) mean_step_ += surface.x()[s] - surface_loads.x_before[s];
   mean_step_ = mean_step_ / static_cast<double>(surface.x().size());
   for (std::size_t s = 0; s < surface.x().size(); ++s) {
     surface_step_ = std::max(surface_step_, squared_norm(surface.x()[s] - surface_loads.x_before[s] - mean_step_));
   }
   surface_step_ = std::sqrt(surface_step_);
-  (void)held_loads;
 }
 
 Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
@@ -260,7 +256,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   NodeState& after = next_[at(i)];
   const Rules& rules = options_.rules;
   if (!touch.known) {
-    if (!closest() || host.dt <= 0.0) return;
+    if (!closest() || !rules.limits_step || host.dt <= 0.0) return;
     look_ahead(host, held, surface, held_loads, i);
     return;
   }
@@ -271,7 +267,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
 
   // Stiffness for the coming step, also where contact may begin in it.
-  if (!rules.unlimited_depth) {
+  if (rules.limits_step) {
     const double ahead = 1.5 * step_growth * host.dt * std::max(closing, 0.0);
     const bool may_touch = host.dt > 0.0 ? penetration + ahead > 0.0 : penetration > -0.25 * size_;
     if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
@@ -306,10 +302,9 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double moved_in = closing * host.dt;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
-    Switching s{touch.pair.magnitude, touch.pair.potential, penetration, host.dt};
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const double opening = motion.rate + host.dt * (touch.pair.magnitude * motion.inverse_mass + others);
-    factor = switched_force(s, fresh ? moved_in : 0.0, opening) / touch.pair.magnitude;
+    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, motion.inverse_mass, others};
+    factor = switched_force(s, fresh) / touch.pair.magnitude;
   }
   const double normal_force = factor * touch.pair.magnitude;
   const Vec3 on_node = factor * touch.pair.on_node;

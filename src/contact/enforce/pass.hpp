@@ -67,7 +67,9 @@ class Pass {
  public:
   Pass(const Options& options, bool one_pass, std::size_t held_nodes);
 
-  void search(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, bool first);
+  /// Once, on the first geometry: depth limits, nearest nodes, anchors of contacts that exist at the start.
+  void start(const Side& held, const Side& surface);
+  void search(const Side& held, const Side& surface, const SideLoads& surface_loads);
   PassTotals evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads);
   /// Outside the time window: contacts end.
   PassTotals rest();
@@ -116,7 +118,6 @@ class Pass {
   Vec3 mean_step_;
 
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
-  void start(const Side& held, const Side& surface);
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                        const SideLoads& surface_loads, Index i, Touch& touch);
   void measure_plain(const Side& held, const Side& surface, Index i, Touch& touch);

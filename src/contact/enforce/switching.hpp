@@ -1,31 +1,64 @@
-// Contact that starts or ends inside a step: scale its first and last force so that switching makes no energy.
+// Contact that starts or ends inside a step: choose its first and last force so that switching makes no energy.
 //
-// Leap-frog counts trapezoidal work. A node found at penetration P after moving dP > P towards the surface in the step has been in
-// contact for P/dP of it only. For constant velocity over that step the trapezoidal work equals the potential if the force is
-//   f = F/2 + Phi(P)/dP       ( = F (1 + P/dP)/2 for the linear law)
-// and the next step starts from the true F. The same holds mirrored for the last force before separation. Both are continuous: at
-// P = dP nothing changes. The last cycle is predicted from the present normal velocity, the contact's own deceleration F/m (m the
-// pair's effective mass) and the acceleration by all other forces as seen over the last step.
+// Leap-frog counts trapezoidal work: a force f at P works f (D + D')/2 over the steps D before and D' after it. With the law's force in
+// every cycle that sum misses the potential by what happens in the two steps in which P changes sign. So, with Psi = kappa phi:
+//   first cycle, at P after moving D > P inwards:  f (D + D')/2 = Psi(P + D') - F(P + D') D'/2,       D' = D - h^2 (f/m + a)
+//   last cycle, at P before moving D' > P outwards: f (D + D')/2 = Psi(P + D) - F(P + D) D/2,         D' = D + h^2 (f/m + a)
+// (the second is the first with time reversed). For the linear law and constant speed both are f = F (1 + P/D)/2. They
+// are continuous: where the step just ends at the surface (D or D' = P) the law's own force solves them.
+// h the last step, taken for the coming one too; m effective mass of the pair; a the opening acceleration by all other
+// forces as seen over the last step. With masses not given, speeds count as constant. Fixed point: contracts for h^2 K/m < 1.
 #pragma once
+
+#include "contact/enforce/law.hpp"
 
 namespace abut::contact {
 
 struct Switching {
-  double force = 0.0;      ///< F, per law
-  double potential = 0.0;  ///< Phi(P)
-  double penetration = 0.0;
-  double step = 0.0;       ///< the last step, taken for the coming one too; 0: nothing known, F stands
+  NormalLaw law;
+  double stiffness = 0.0;     ///< kappa
+  double penetration = 0.0;   ///< P > 0
+  double step = 0.0;          ///< h > 0
+  double rate = 0.0;          ///< speed of opening over the last step
+  double inverse_mass = 0.0;  ///< 1/m
+  double others = 0.0;        ///< a
 };
 
-/// @param closed  dP that led in during the last step, when the contact began in it; else 0
-/// @param opening normal speed of separation expected over the coming step
-[[nodiscard]] inline double switched_force(const Switching& s, double closed, double opening) {
-  double force = s.force;
-  if (s.step <= 0.0) return force;
-  if (closed > s.penetration) force += s.potential / closed - 0.5 * s.force;
-  const double opened = opening * s.step;
-  if (opened > s.penetration) force += s.potential / opened - 0.5 * s.force;
-  return force;
+/// @param first  contact began in the last step
+/// @return the force instead of kappa phi'(P)
+[[nodiscard]] inline double switched_force(const Switching& s, bool first) {
+  const auto force = [&s](double p) { return s.stiffness * s.law.force(p); };
+  const auto missing = [&](double p, double moved) { return s.stiffness * s.law.potential(p) - 0.5 * force(p) * moved; };
+  const double plain = force(s.penetration);
+  const double stored = s.stiffness * s.law.potential(s.penetration);
+  const double kick = s.step * s.step * s.inverse_mass;
+  const double drift = s.step * s.step * s.others;
+  const double inwards = -s.rate * s.step;
+  constexpr int iterations = 16;
+  if (first && inwards > s.penetration) {
+    double f = 0.5 * plain + stored / inwards;
+    for (int i = 0; i < iterations; ++i) {
+      const double next = inwards - kick * f - drift;
+      if (s.penetration + next <= 0.0) {  // in and out again: both steps carry half of the work
+        f = stored / inwards + stored / -next;
+        break;
+      }
+      if (inwards + next <= 0.1 * inwards) break;  // turns around: no work to correct
+      f = 2.0 * missing(s.penetration + next, next) / (inwards + next);
+    }
+    return f;
+  }
+  const double outwards = -inwards;
+  if (outwards + kick * plain + drift <= s.penetration) return plain;
+  if (outwards <= 0.0) return 0.5 * plain + stored / (outwards + kick * plain + drift);
+  const double work = missing(s.penetration + outwards, outwards);
+  double f = plain;
+  for (int i = 0; i < iterations; ++i) {
+    const double next = outwards + kick * f + drift;
+    if (next <= 0.0) return plain;
+    f = 2.0 * work / (outwards + next);
+  }
+  return f;
 }
 
 }  // namespace abut::contact

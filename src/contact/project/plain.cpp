@@ -67,6 +67,8 @@ PlainPoint project_plain(const Patch& patch, const Vec3& x, double gap, bool are
 
   const double limit = 1.0 + edge_tolerance(gap, result.area);
   result.inside = std::abs(s) <= limit && std::abs(t) <= limit;
+  result.raw_s = s;
+  result.raw_t = t;
   result.s = std::clamp(s, -1.0, 1.0);
   result.t = std::clamp(t, -1.0, 1.0);
   result.weight = shape(false, result.s, result.t);

@@ -9,6 +9,7 @@ namespace abut::contact {
 
 struct PlainPoint {
   bool inside = false;             ///< |s|, |t| <= 1 + tolerance
+  double raw_s = 0.0, raw_t = 0.0; ///< before clipping
   double s = 0.0, t = 0.0;         ///< clipped to [-1, 1]
   std::array<double, 4> weight{};  ///< H_i
   Vec3 point;                      ///< sum H_i x_i
