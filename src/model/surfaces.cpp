@@ -171,8 +171,9 @@ void SetReader::evaluate_surface(Item& item) {
   const std::string option = item.id_word == 3 ? deck::to_upper(b.word(2)) : std::string();
   const Faces faces = option == "EXT" ? Faces::external : (option == "ALL" ? Faces::all : Faces::none);
   std::vector<Segment>& out = item.segments;
-  bool known = option != "FREE" || type == "GRBRIC";
-  if (!known) {
+  bool known = true;
+  if (option == "FREE" && type != "GRBRIC") {
+    known = false;
   } else if (type == "SEG") {
     read_segments(r, out);
   } else if (type == "GRSHEL" || type == "GRSH3N") {
