@@ -17,6 +17,9 @@ struct Profile {
   enum class RotationalHourglass { homogeneous, reference };
   /// Energy increment of hourglass forces: trapezoidal, or with the end-of-step force.
   enum class HourglassEnergy { trapezoidal, end_of_step };
+  /// Stretch that a finite rotation over one step leaves in shells of Ishell 1 and 2: removed, or the reference's correction,
+  /// which is twice as large.
+  enum class ShellRotation { exact, reference };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
 
@@ -24,6 +27,7 @@ struct Profile {
   SystemStep system_step = SystemStep::nodal;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
+  ShellRotation shell_rotation = ShellRotation::exact;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
@@ -35,6 +39,7 @@ struct Profile {
     p.system_step = SystemStep::reference;
     p.rotational_hourglass = RotationalHourglass::reference;
     p.hourglass_energy = HourglassEnergy::end_of_step;
+    p.shell_rotation = ShellRotation::reference;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.reference_contact = true;
     return p;
