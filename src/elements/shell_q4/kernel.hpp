@@ -109,7 +109,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
     vx13 -= dx;
     vx24 += dx;
     vy13 += dy;
-    vy24 -= dy;
+    vy24 += dy;
   } else {
     const T qx = T(0.5 * h) * (gx * gx), qy = T(0.5 * h) * (gy * gy);
     vx13 -= two * qx * g.py2;
