@@ -17,6 +17,9 @@ struct Profile {
   enum class RotationalHourglass { homogeneous, reference };
   /// Energy increment of hourglass forces: trapezoidal, or with the end-of-step force.
   enum class HourglassEnergy { trapezoidal, end_of_step };
+  /// Stretch that a finite rotation over one step leaves in shells of Ishell 1 and 2: removed, or the reference's correction,
+  /// which is twice as large.
+  enum class ShellRotation { exact, reference };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
   /// Rigid bodies: exact rotation of secondary nodes, gyroscopic moment at mid-step (keeps energy and angular momentum),
@@ -30,6 +33,7 @@ struct Profile {
   SystemStep system_step = SystemStep::nodal;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
+  ShellRotation shell_rotation = ShellRotation::exact;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
   TetraSpin tetra_spin = TetraSpin::exact;
@@ -43,6 +47,7 @@ struct Profile {
     p.system_step = SystemStep::reference;
     p.rotational_hourglass = RotationalHourglass::reference;
     p.hourglass_energy = HourglassEnergy::end_of_step;
+    p.shell_rotation = ShellRotation::reference;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
     p.tetra_spin = TetraSpin::reference;

@@ -5,7 +5,9 @@
 //   forces  f_xI = t (F_xx P_xI + F_xy P_yI), m_yI = t^2 (M_xx P_xI + M_xy P_yI) + t A F_zx/4, ... plus hourglass
 // Symbols: d13 = value at node 1 minus value at node 3; hg = value_1 - value_2 + value_3 - value_4. Since P_3 = -P_1 and P_4 = -P_2, only
 // d13, d24 and hg of the velocities (and the sum of the rotations) are needed, and only these are rotated into the frame.
-// Second-order corrections (numerics.md 3.3) remove the stretch that a finite rotation over one step would leave.
+// Second-order corrections (numerics.md 3.3) remove the stretch that a finite rotation over one step would leave: theta^2/2 for
+// velocities along the chords in the frame at the end. Ishell 1, 2: delta_x = c h (d13 v_z - d24 v_z)^2/(P_y1 + P_y2), likewise y; for a
+// rectangle turning about e2 that changes the strain by -4 c theta^2, so c = 1/8. The reference has c = 1/4 (Profile::ShellRotation).
 // Elements that are off or rigid see zero rates and write zeros.
 #pragma once
 
@@ -100,14 +102,14 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   if (q.ishell <= 2) {
     rate_x = vxh - (g.px1 * vx13 + g.px2 * vx24) * g.hx - (g.py1 * vx13 + g.py2 * vx24) * g.hy;
     rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
-    const T quarter = T(0.25 * h);
+    const T factor = T(q.rotation_correction * h);
     const T minus = vz13 - vz24, plus = vz13 + vz24;
-    const T dx = quarter * (minus * minus) / q4_detail::guarded(g.py1 + g.py2);
-    const T dy = quarter * (plus * plus) / q4_detail::guarded(g.px2 - g.px1);
+    const T dx = factor * (minus * minus) / q4_detail::guarded(g.py1 + g.py2);
+    const T dy = factor * (plus * plus) / q4_detail::guarded(g.px2 - g.px1);
     vx13 -= dx;
     vx24 += dx;
     vy13 += dy;
-    vy24 -= dy;
+    vy24 += dy;
   } else {
     const T qx = T(0.5 * h) * (gx * gx), qy = T(0.5 * h) * (gy * gy);
     vx13 -= two * qx * g.py2;
