@@ -244,15 +244,6 @@ ABUT_INLINE StabilityTerms<R> stability_terms(const SolidConfig& c, const PointR
   return {volume_over_mass * (lambda * trace + two_mu * g), volume_over_mass * eta * trace, zero, zero};
 }
 
-/// 1/h of the largest h with lambda_max(h^2 K + 2 h C) <= 4 M.
-template <class R>
-ABUT_INLINE R bound_inverse_step(const StabilityTerms<R>& t) {
-  const R least = t.hourglass * R(1.0 / 1.75);
-  const R y = simd::max(R(0.5) * simd::sqrt(t.k), least);
-  const R c = t.bulk + t.mixed * ((y + y) / simd::max(R(1e-300), y + y - t.hourglass));
-  return simd::max(R(0.25) * (c + simd::sqrt(c * c + R(4.0) * t.k)), least);
-}
-
 /// lambda_max(h^2 K + 2 h C)/(h^2 M) for 1/h = y.
 template <class R>
 ABUT_INLINE R effective_eigenvalue(const StabilityTerms<R>& t, R y) {
@@ -260,6 +251,24 @@ ABUT_INLINE R effective_eigenvalue(const StabilityTerms<R>& t, R y) {
   const R a = t.k + R(2.0) * y * t.bulk, d = R(2.0) * y * t.mixed, f = R(2.0) * y * t.hourglass;
   const R u = half * (a + d - f);
   return half * (a + d + f) + simd::sqrt(u * u + d * f);
+}
+
+/// 1/h of the largest h with lambda_max(h^2 K + 2 h C) <= 4 M, from above: exact without hourglass viscosity on the P space. A first value
+/// bounds the 2 x 2 problem by its Schur complement; where hourglass viscosity counts, y <- sqrt(effective_eigenvalue(y))/2 falls
+/// monotonically towards the solution.
+template <class R>
+ABUT_INLINE R bound_inverse_step(const StabilityTerms<R>& t) {
+  const R least = t.hourglass * R(1.0 / 1.75);
+  const R y0 = simd::max(R(0.5) * simd::sqrt(t.k), least);
+  const R c = t.bulk + t.mixed * ((y0 + y0) / simd::max(R(1e-300), y0 + y0 - t.hourglass));
+  R y = simd::max(R(0.25) * (c + simd::sqrt(c * c + R(4.0) * t.k)), least);
+  const auto loose = (y <= least) | (t.mixed > R(0.02) * y);
+  if (simd::any(loose)) {
+    R better = y;
+    for (int i = 0; i < 3; ++i) better = R(0.5) * simd::sqrt(effective_eigenvalue(t, better));
+    y = simd::select(loose, simd::min(y, better), y);
+  }
+  return y;
 }
 
 /// Accumulates a chunk's results, lane by lane, so that the sums do not depend on the register width.
