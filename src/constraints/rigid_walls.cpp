@@ -20,7 +20,7 @@ std::vector<Index> touched_nodes(const model::Model& model) {
 }  // namespace
 
 RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies)
-    : model_(&model), bodies_(&bodies), walls_(model.rigid_walls.size()), sums_(model.rigid_walls.size()), meter_(touched_nodes(model), &bodies) {
+    : model_(&model), walls_(model.rigid_walls.size()), sums_(model.rigid_walls.size()), meter_(touched_nodes(model), &bodies) {
   // Ikrem = 0: secondary nodes of a rigid body are taken out of all walls.
   std::vector<bool> removed(static_cast<std::size_t>(model.node_count()), false);
   for (const model::RigidBody& body : model.rigid_bodies) {

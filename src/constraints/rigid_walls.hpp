@@ -50,7 +50,6 @@ class RigidWalls {
   void apply_wall(std::size_t index, state::State& state);
 
   const model::Model* model_;
-  const RigidBodies* bodies_;
   std::vector<Wall> walls_;
   std::vector<WallSums> sums_;
   double work_ = 0.0;
