@@ -23,6 +23,9 @@ struct Profile {
   /// boundary conditions of secondary nodes without any effect; or rotation to second order, gyroscopic moment at n - 1/2
   /// and half-step velocities of secondary nodes that their boundary conditions set to zero.
   enum class RigidBody { conserving, reference };
+  /// Moving rigid walls: node and wall exchange momentum in the cycle of impact (plastic impact, momentum conserved); or the
+  /// reaction acts one cycle later on the mass of wall and impacted nodes together.
+  enum class MovingWall { same_cycle, reference };
 
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
@@ -30,6 +33,7 @@ struct Profile {
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
+  MovingWall moving_wall = MovingWall::same_cycle;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -42,6 +46,7 @@ struct Profile {
     p.hourglass_energy = HourglassEnergy::end_of_step;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
+    p.moving_wall = MovingWall::reference;
     p.reference_contact = true;
     return p;
   }

@@ -57,7 +57,7 @@ struct Rig {
   Loads loads{model, curves, axes};
   Gravities gravities{model, curves, axes, bodies};
   ImposedMotions motions{model, curves, axes, bodies};
-  RigidWalls walls{model, bodies};
+  RigidWalls walls{model, bodies, conditions, motions, profile};
   std::function<void(state::State&)> forces = [](state::State&) {};  ///< sets f_contact (and m_internal, subtracted)
   std::function<void(const state::State&)> output = [](const state::State&) {};  ///< step 26
   ForceWork force_work;

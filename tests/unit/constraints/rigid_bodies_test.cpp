@@ -13,9 +13,20 @@ namespace {
 
 const std::vector<Vec3> cloud{{0.2, -0.1, 0.3}, {1, 0, 0}, {-0.8, 0.3, 0.1}, {0.1, 1.2, -0.4}, {0.3, -0.9, 0.5}, {0, 0.2, 0.9}};
 
+model::RigidBody card(Id id, Index main, std::vector<Index> nodes, int ispher = 2) {
+  model::RigidBody body;
+  body.id = id;
+  body.main = main;
+  body.nodes = std::move(nodes);
+  body.ispher = ispher;
+  return body;
+}
+
 model::Model body_of_points(int icog = 1, int ispher = 3) {
   auto m = nodes_at(cloud);
-  m.rigid_bodies.push_back({.id = 9, .main = 0, .ispher = ispher, .icog = icog, .nodes = {1, 2, 3, 4, 5}});
+  model::RigidBody body = card(9, 0, {1, 2, 3, 4, 5}, ispher);
+  body.icog = icog;
+  m.rigid_bodies.push_back(body);
   return m;
 }
 
@@ -104,8 +115,8 @@ TEST(RigidBody, MassCentreAndInertiaForEveryICoG) {
       for (std::size_t k = 0; k < 6; ++k) j[k] += own[k];
     }
     const double nodal = 0.05 + (icog == 4 ? 0.0 : 0.02);
-    const Symmetric card{0.1 + nodal, 0.2 + nodal, 0.3 + nodal, 0.01, 0.02, 0.03};
-    for (std::size_t k = 0; k < 6; ++k) j[k] += card[k];
+    const Symmetric given{0.1 + nodal, 0.2 + nodal, 0.3 + nodal, 0.01, 0.02, 0.03};
+    for (std::size_t k = 0; k < 6; ++k) j[k] += given[k];
     expect_tensor(rig.bodies, j, 1e-13);
     const auto& principal = rig.bodies.inertia(0).principal;
     EXPECT_EQ(rig.s.inertia[0], std::min({principal[0], principal[1], principal[2]}));
@@ -115,7 +126,9 @@ TEST(RigidBody, MassCentreAndInertiaForEveryICoG) {
 TEST(RigidBody, InertiaOfTheCardIsGivenInItsSkew) {
   auto m = nodes_at({{0, 0, 0}});
   m.skews.push_back({.id = 1, .axes = {Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 0, 0}}});
-  m.rigid_bodies.push_back({.id = 1, .main = 0, .skew = 0, .ispher = 3, .j_diagonal = {1, 2, 3}});
+  m.rigid_bodies.push_back(card(1, 0, {}, 3));
+  m.rigid_bodies[0].skew = 0;
+  m.rigid_bodies[0].j_diagonal = {1, 2, 3};
   Rig rig(m);
   rig.start();
   expect_tensor(rig.bodies, {3, 1, 2, 0, 0, 0}, 1e-15);
@@ -124,7 +137,7 @@ TEST(RigidBody, InertiaOfTheCardIsGivenInItsSkew) {
 TEST(RigidBody, SphericalAndCorrectedInertia) {
   auto m = nodes_at({{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}});
   for (int ispher = 1; ispher <= 3; ++ispher) {
-    m.rigid_bodies = {{.id = 1, .main = 0, .ispher = ispher, .nodes = {1, 2}}};
+    m.rigid_bodies = {card(1, 0, {1, 2}, ispher)};
     Rig rig(m);
     rig.start();
     // A stick of two unit masses: 0, 2, 2.
@@ -301,7 +314,8 @@ TEST(RigidBody, NumericalWorkIsOfSecondOrder) {
 TEST(RigidBody, ImposedRotationOfTheMainNode) {
   for (const Profile profile : {Profile::standard(), Profile::reference()}) {
     auto m = nodes_at({{0, 0, 0}, {1, 0, 0}});
-    m.rigid_bodies.push_back({.id = 1, .main = 0, .ispher = 1, .j_diagonal = {1, 1, 1}, .nodes = {1}});
+    m.rigid_bodies.push_back(card(1, 0, {1}, 1));
+    m.rigid_bodies[0].j_diagonal = {1, 1, 1};
     m.boundary_conditions.push_back({.id = 1, .translation = {true, true, true}, .nodes = {0, 1}});
     m.imposed_motions.push_back({.id = 1, .direction = 5, .scale_y = 2.0, .nodes = {0}});
     Rig rig(m, 0.0, 0.0, profile);  // massless: inertia of the card alone
@@ -367,10 +381,8 @@ TEST(RigidBody, EnergyCorrectionLeavesTheBodysOwnEnergy) {
 
 TEST(RigidBody, ContainsElementsOfOneBodyOnly) {
   auto m = nodes_at({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}});
-  m.rigid_bodies.push_back({.id = 1, .main = 0, .nodes = {1, 2}});
-  m.rigid_bodies.push_back({.id = 2, .main = 3, .nodes = {4}});
-  m.rigid_bodies.push_back({.id = 3, .main = 5, .nodes = {5}, .active = false});
-  m.rigid_bodies[2].nodes = {};
+  m.rigid_bodies = {card(1, 0, {1, 2}), card(2, 3, {4}), card(3, 5, {})};
+  m.rigid_bodies[2].active = false;
   const RigidBodies bodies(m);
   EXPECT_TRUE(bodies.contains(std::vector<Index>{0, 1, 2}));
   EXPECT_TRUE(bodies.contains(std::vector<Index>{1, 2}));
@@ -415,7 +427,7 @@ TEST(RigidBody, SensorSwitchesOnAndOff) {
   rig.start();
   const auto momentum = [&](bool body) {
     Vec3 p{};
-    for (std::size_t i = body ? 0 : 0; i < (body ? 1U : 6U); ++i) p += rig.s.mass[i] * rig.s.v[i];
+    for (std::size_t i = 0; i < (body ? 1U : 6U); ++i) p += rig.s.mass[i] * rig.s.v[i];
     return p;
   };
   const Vec3 before = momentum(false);
