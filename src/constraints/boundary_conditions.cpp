@@ -76,16 +76,28 @@ BoundaryConditions::Held BoundaryConditions::held(Index node, bool rotation) con
     const unsigned bits = rotation ? held_bits(entry) >> 3U : held_bits(entry) & 7U;
     for (int k = 0; k < 3 && result.count < 3; ++k) {
       if ((bits >> static_cast<unsigned>(k) & 1U) == 0U) continue;
-      Vec3 axis = axes_->axis(entry.skew, k);
-      if (e > first_[i]) {  // a second frame on this node: keep what its axis adds
-        for (int j = 0; j < result.count; ++j) remove(axis, result.axis[static_cast<std::size_t>(j)]);
-        if (squared_norm(axis) < 1e-12) continue;
-        axis = normalized(axis);
+      const Vec3 axis = axes_->axis(entry.skew, k);
+      if (e == first_[i]) {
+        result.axis[static_cast<std::size_t>(result.count++)] = axis;
+      } else {
+        result.add(axis);
       }
-      result.axis[static_cast<std::size_t>(result.count++)] = axis;
     }
   }
   return result;
+}
+
+void BoundaryConditions::Held::add(Vec3 direction) {
+  if (count == 3) return;
+  direction = free_part(direction);
+  if (squared_norm(direction) < 1e-12) return;
+  axis[static_cast<std::size_t>(count++)] = normalized(direction);
+}
+
+Vec3 BoundaryConditions::Held::free_part(Vec3 b) const {
+  if (count == 3) return {};
+  for (int k = 0; k < count; ++k) remove(b, axis[static_cast<std::size_t>(k)]);
+  return b;
 }
 
 void BoundaryConditions::release(Index node, int direction) {

@@ -34,7 +34,12 @@ class BoundaryConditions {
   [[nodiscard]] bool fixed(Index node, int direction) const;
 
   /// Orthonormal directions that are held now, first `count` of the array. @param rotation rotations, else translations
-  struct Held { std::array<Vec3, 3> axis; int count = 0; };
+  struct Held {
+    std::array<Vec3, 3> axis;
+    int count = 0;
+    void add(Vec3 direction);  ///< keeps what a unit vector adds to the span
+    [[nodiscard]] Vec3 free_part(Vec3 b) const;
+  };
   [[nodiscard]] Held held(Index node, bool rotation) const;
 
   /// Step 25: exact discrete work of both applications (negative: kinetic energy taken).

@@ -77,6 +77,13 @@ void ImposedMotions::apply(state::State& state) {
   meter_.after(state);
 }
 
+void ImposedMotions::add_imposed(Index node, BoundaryConditions::Held& held) const {
+  for (const Dof& dof : dofs_) {
+    const model::ImposedMotion& motion = model_->imposed_motions[static_cast<std::size_t>(dof.motion)];
+    if (dof.node == node && dof.active && motion.direction < 3) held.add(axes_->axis(motion.skew, motion.direction));
+  }
+}
+
 double ImposedMotions::book_work(const state::State& state) {
   double work = 0.0;
   for (const Dof& dof : dofs_) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "constraints/axes.hpp"
+#include "constraints/boundary_conditions.hpp"
 #include "constraints/curves.hpp"
 #include "constraints/work_meter.hpp"
 #include "model/model.hpp"
@@ -32,6 +33,9 @@ class ImposedMotions {
 
   /// Step 25: exact discrete work.
   double ledger_work(const state::State& state) { return meter_.settle(state); }
+
+  /// Adds the directions of translation of `node` that are imposed in this cycle to those that are held.
+  void add_imposed(Index node, BoundaryConditions::Held& held) const;
 
   /// Reaction of motion i on each of its nodes in this cycle, m (a - a_free) along the axis (force or moment).
   [[nodiscard]] double reaction(Index motion) const { return reaction_[static_cast<std::size_t>(motion)]; }

@@ -307,7 +307,7 @@ void RigidBodies::scatter(state::State& state) {
       const Vec3 r = state.x[s] - state.x[main];
       Vec3 relative{};
       if (conserving_ || small_body) {
-        relative = (rotated(r, angle) - r) / h;
+        relative = chord(r, angle) / h;
         if (!conserving_) relative += 0.5 * h_minus * cross(w, relative);
       } else {
         const Vec3 u = cross(w, r);

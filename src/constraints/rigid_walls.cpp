@@ -11,7 +11,10 @@ namespace {
 
 std::vector<Index> touched_nodes(const model::Model& model) {
   std::vector<Index> nodes;
-  for (const model::RigidWall& w : model.rigid_walls) nodes.insert(nodes.end(), w.nodes.begin(), w.nodes.end());
+  for (const model::RigidWall& w : model.rigid_walls) {
+    nodes.insert(nodes.end(), w.nodes.begin(), w.nodes.end());
+    if (w.node != no_index) nodes.push_back(w.node);
+  }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
@@ -19,8 +22,16 @@ std::vector<Index> touched_nodes(const model::Model& model) {
 
 }  // namespace
 
-RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies)
-    : model_(&model), bodies_(&bodies), walls_(model.rigid_walls.size()), sums_(model.rigid_walls.size()), meter_(touched_nodes(model), &bodies) {
+RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies, const BoundaryConditions& conditions,
+                       const ImposedMotions& motions, const Profile& profile)
+    : model_(&model),
+      bodies_(&bodies),
+      conditions_(&conditions),
+      motions_(&motions),
+      same_cycle_(profile.moving_wall == Profile::MovingWall::same_cycle),
+      walls_(model.rigid_walls.size()),
+      sums_(model.rigid_walls.size()),
+      meter_(touched_nodes(model), &bodies) {
   // Ikrem = 0: secondary nodes of a rigid body are taken out of all walls.
   std::vector<bool> removed(static_cast<std::size_t>(model.node_count()), false);
   for (const model::RigidBody& body : model.rigid_bodies) {
@@ -45,6 +56,7 @@ void RigidWalls::initialise(state::State& state) {
 }
 
 void RigidWalls::add_reaction(state::State& state) {
+  if (same_cycle_) return;
   for (std::size_t i = 0; i < walls_.size(); ++i) {
     const Index main = model_->rigid_walls[i].node;
     if (main == no_index) continue;
@@ -65,6 +77,40 @@ void RigidWalls::apply(state::State& state) {
   meter_.after(state);
 }
 
+bool RigidWalls::reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const {
+  const auto i = static_cast<std::size_t>(node);
+  const Vec3 predicted = state.v[i] + state.times.h_bar * state.a[i];
+  return dot(state.x[i] + state.times.h_plus * predicted - point, normal) <= 0.0;
+}
+
+Vec3 RigidWalls::velocity_after_impact(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
+                                       const Vec3& point, const BoundaryConditions::Held& held) const {
+  const Vec3 n = card.normal, free_normal = held.free_part(n);
+  const double mass = state.mass[static_cast<std::size_t>(card.node)];
+  const bool tied = card.slide == 1;
+  // The slower the wall gets, the fewer nodes still press on it: shrink the set until it stays. Ends: the set only shrinks.
+  Vec3 velocity = before;
+  Index count = -1;
+  for (;;) {
+    double impacted = 0.0;
+    Vec3 momentum{};
+    Index pressing = 0;
+    for (const Index node : wall.nodes) {
+      if (!reaches(state, node, point, n)) continue;
+      const auto i = static_cast<std::size_t>(node);
+      const Vec3 predicted = state.v[i] + state.times.h_bar * state.a[i];
+      if (dot(predicted - velocity, n) > 0.0) continue;
+      impacted += state.mass[i];
+      momentum += state.mass[i] * (predicted - before);
+      ++pressing;
+    }
+    if (pressing == count) return velocity;
+    count = pressing;
+    velocity = tied ? before + held.free_part(momentum) / (mass + impacted)
+                    : before + dot(momentum, n) / (mass + dot(n, free_normal) * impacted) * free_normal;
+  }
+}
+
 void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   const model::RigidWall& card = model_->rigid_walls[index];
   Wall& wall = walls_[index];
@@ -72,10 +118,18 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   const Vec3 n = card.normal;
 
   Vec3 wall_velocity{}, wall_point = card.point;
+  BoundaryConditions::Held held;
+  bool yields = false;  // the impact changes the wall's own velocity in this cycle
   if (card.node != no_index) {
     const auto k = static_cast<std::size_t>(card.node);
     wall_velocity = state.v[k] + hb * state.a[k];
     wall_point = state.x[k] + h * wall_velocity;
+    yields = same_cycle_ && state.mass[k] > 0.0 && bodies_->body_of(card.node) == no_index;
+    if (yields) {
+      held = conditions_->held(card.node, false);
+      motions_->add_imposed(card.node, held);
+      wall_velocity = velocity_after_impact(wall, state, card, wall_velocity, wall_point, held);
+    }
   }
   double alpha = 1.0;  // friction filter: weight of the new value
   if (card.filter_kind == 1) alpha = card.filter;
@@ -88,7 +142,7 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(wall.nodes[k]);
     const Vec3 predicted = state.v[i] + hb * state.a[i];
-    if (dot(state.x[i] + h * predicted - wall_point, n) > 0.0) {
+    if (!reaches(state, wall.nodes[k], wall_point, n)) {
       if (card.filter_kind != 0) wall.filtered[k] = Vec3{};
       continue;
     }
@@ -140,6 +194,10 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   sums.normal_impulse += normal_impulse;
   sums.tangential_impulse += tangential_impulse;
   wall.reaction = (normal_impulse + tangential_impulse) / hb;
+  if (yields) {
+    const auto k = static_cast<std::size_t>(card.node);
+    state.a[k] += held.free_part(wall.reaction) / state.mass[k];
+  }
   wall.impacted_mass = impacted;
 }
 

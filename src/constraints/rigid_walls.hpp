@@ -4,7 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "constraints/boundary_conditions.hpp"
+#include "constraints/imposed_motions.hpp"
 #include "constraints/work_meter.hpp"
+#include "core/profile.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
@@ -16,16 +19,22 @@ class RigidBodies;
 /// "normal" points against the wall's normal.
 struct WallSums { Vec3 normal_force, tangential_force, normal_impulse, tangential_impulse; };
 
+/// A moving wall is as heavy as its main node (the whole rigid body, if it is the main node of one). In the standard profile the
+/// impact is plastic and momentum is exchanged in the same cycle, along those directions in which the main node is neither held
+/// nor moved by an imposed motion: with P the projection on the free directions, N the normal, M the main node's mass,
+///   V_w = V_p + P N sum m (v* - V_p).N / (M + N.PN sum m)   over the nodes in contact (tied: V_p + P sum m (v* - V_p) / (M + sum m)),
+/// and the main node gets a += P sum J / (M h_bar). Reference profile: numerics.md 6.1.5.
 class RigidWalls {
  public:
-  RigidWalls(const model::Model& model, const RigidBodies& bodies);
+  RigidWalls(const model::Model& model, const RigidBodies& bodies, const BoundaryConditions& conditions, const ImposedMotions& motions,
+             const Profile& profile = {});
 
   /// Moving walls: mass of the card added to the main node, velocity of the card given to it. After element masses and
   /// initial velocities are set, before RigidBodies::initialise.
   void initialise(state::State& state);
 
-  /// Step 12, before a = f/m: reaction of the previous cycle on the main nodes of moving walls; their total force acts on the
-  /// mass that they carry.
+  /// Step 12, before a = f/m. Reference profile: reaction of the previous cycle on the main nodes of moving walls, whose total
+  /// force acts on the mass that they carry. Standard profile: nothing.
   void add_reaction(state::State& state);
 
   /// Step 21: nodes whose predicted position and velocity go into a wall are stopped; changes v and a.
@@ -48,9 +57,15 @@ class RigidWalls {
     Index count = 0;                   ///< nodes in contact in this cycle
   };
   void apply_wall(std::size_t index, state::State& state);
+  [[nodiscard]] Vec3 velocity_after_impact(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
+                                           const Vec3& point, const BoundaryConditions::Held& held) const;
+  [[nodiscard]] bool reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const;
 
   const model::Model* model_;
   const RigidBodies* bodies_;
+  const BoundaryConditions* conditions_;
+  const ImposedMotions* motions_;
+  bool same_cycle_;
   std::vector<Wall> walls_;
   std::vector<WallSums> sums_;
   double work_ = 0.0;

@@ -7,9 +7,9 @@
 
 namespace abut::constraints {
 
-/// r turned by the rotation vector `angle` (radians, right-hand rule): Rodrigues' formula with sin(t)/t and (1 - cos t)/t^2
-/// as power series, accurate to 1e-16 for |angle| <= 1.
-[[nodiscard]] inline Vec3 rotated(const Vec3& r, const Vec3& angle) {
+/// R r - r for the rotation vector `angle` (radians, right-hand rule): Rodrigues' formula with sin(t)/t and (1 - cos t)/t^2
+/// as power series, accurate to 1e-16 relative for |angle| <= 1.
+[[nodiscard]] inline Vec3 chord(const Vec3& r, const Vec3& angle) {
   const double t2 = squared_norm(angle);
   double s = 1.0, c = 1.0;
   for (int k = 9; k >= 1; --k) {
@@ -18,8 +18,11 @@ namespace abut::constraints {
   }
   c *= 0.5;
   const Vec3 u = cross(angle, r);
-  return r + s * u + c * cross(angle, u);
+  return s * u + c * cross(angle, u);
 }
+
+/// r turned by `angle`.
+[[nodiscard]] inline Vec3 rotated(const Vec3& r, const Vec3& angle) { return r + chord(r, angle); }
 
 /// Symmetric tensor xx yy zz xy yz zx.
 using Symmetric = std::array<double, 6>;

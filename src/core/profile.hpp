@@ -28,6 +28,9 @@ struct Profile {
   enum class RigidBody { conserving, reference };
   /// Spin of TETRA4: the skew part of the velocity gradient, or with the reference's symmetric second-order terms.
   enum class TetraSpin { exact, reference };
+  /// Moving rigid walls: node and wall exchange momentum in the cycle of impact (plastic impact, momentum conserved); or the
+  /// reaction acts one cycle later on the mass of wall and impacted nodes together.
+  enum class MovingWall { same_cycle, reference };
 
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
@@ -37,6 +40,7 @@ struct Profile {
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
   TetraSpin tetra_spin = TetraSpin::exact;
+  MovingWall moving_wall = MovingWall::same_cycle;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -51,6 +55,7 @@ struct Profile {
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
     p.tetra_spin = TetraSpin::reference;
+    p.moving_wall = MovingWall::reference;
     p.reference_contact = true;
     return p;
   }
