@@ -107,8 +107,7 @@ int run_command(const RunArguments& arguments) {
   const cycle::Outcome outcome = run_model(model, settings, *sinks, phases);
   const bool good = outcome.kind == cycle::Outcome::Kind::finished;
   if (!arguments.quiet || !good) {
-    fmt::print(good ? stdout : stderr, "{} {} at time {:.6g} after {} cycles{}{}\n", model.name, output::outcome_name(outcome.kind), outcome.time,
-               outcome.cycles, outcome.message.empty() ? "" : ": ", outcome.message);
+    fmt::print(good ? stdout : stderr, "{} {}\n", model.name, output::outcome_text(outcome));
   }
   if (arguments.timing) {
     phases.push_back({"run", seconds_since(run_start)});

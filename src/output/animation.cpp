@@ -11,7 +11,6 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -78,47 +77,43 @@ Array* add_array(vtkDataSetAttributes* attributes, const std::string& name, int 
 
 }  // namespace
 
-/// Topology made once; the arrays are refilled for each state.
+/// Cells are made once and again whenever elements have been deleted; the arrays are refilled for each state.
 struct Animation::Grid {
   explicit Grid(const cycle::Snapshot& first);
   [[nodiscard]] std::string serialise(const cycle::Snapshot& now);
 
  private:
+  struct Cell {
+    CellShape shape;
+    Id id = 0, part_id = 0;
+    ElementPlace place;
+  };
+  void make_cells(const std::vector<Index>& shown);
   void fill_points(const cycle::Snapshot& now);
   void fill_cells(const cycle::Snapshot& now);
 
   AnimationFields fields_;
-  std::vector<ElementPlace> places_;  ///< per cell
-  std::vector<Id> ids_, part_ids_;    ///< per cell
+  std::vector<Cell> cells_;    ///< all elements of the model
+  std::vector<Index> shown_;   ///< those that are in the grid: not deleted
   vtkNew<vtkUnstructuredGrid> grid_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkDoubleArray> time_;
   vtkNew<vtkIdTypeArray> cycle_;
   std::vector<vtkFloatArray*> node_arrays_, cell_arrays_;  ///< owned by grid_
-  vtkUnsignedCharArray* hidden_ = nullptr;                 ///< owned by grid_
 };
 
 Animation::Grid::Grid(const cycle::Snapshot& first) : fields_(select_animation_fields(first.model->controls.animation_fields)) {
   const model::Model& model = *first.model;
   const std::span<const Vec3> x = model.node_x;
   const ElementLookup lookup(model, first.groups);
-  const Index cells = model.shells.size() + model.sh3ns.size() + model.bricks.size() + model.tetras.size();
   points_->SetDataTypeToDouble();
   points_->SetNumberOfPoints(model.node_count());
   grid_->SetPoints(points_);
-  grid_->Allocate(cells);
 
   const auto add_table = [&](const auto& table, model::ElementKind kind, const auto& shape_of) {
     for (std::size_t e = 0; e < table.id.size(); ++e) {
-      const Id part_id = model.parts[static_cast<std::size_t>(table.part[e])].id;
-      const auto& nodes = table.nodes[e];
-      const CellShape shape = shape_of(nodes);
-      std::array<vtkIdType, 8> corners{};
-      std::copy(shape.nodes.begin(), shape.nodes.end(), corners.begin());
-      grid_->InsertNextCell(vtk_type(shape.kind), shape.count, corners.data());
-      ids_.push_back(table.id[e]);
-      part_ids_.push_back(part_id);
-      places_.push_back(lookup.find(kind, static_cast<Index>(e)));
+      cells_.push_back({shape_of(table.nodes[e]), table.id[e], model.parts[static_cast<std::size_t>(table.part[e])].id,
+                        lookup.find(kind, static_cast<Index>(e))});
     }
   };
   add_table(model.shells, model::ElementKind::shell4, [](const std::array<Index, 4>& n) {
@@ -135,23 +130,33 @@ Animation::Grid::Grid(const cycle::Snapshot& first) : fields_(select_animation_f
   for (const NodeField& field : fields_.nodes) {
     node_arrays_.push_back(add_array<vtkFloatArray>(grid_->GetPointData(), field.name, field.components, model.node_count()));
   }
-  auto* element_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "element_id", 1, cells);
-  auto* part_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "part_id", 1, cells);
-  for (std::size_t c = 0; c < ids_.size(); ++c) {
-    element_id->SetValue(static_cast<vtkIdType>(c), ids_[c]);
-    part_id->SetValue(static_cast<vtkIdType>(c), part_ids_[c]);
-  }
-  for (const CellField& field : fields_.cells) {
-    cell_arrays_.push_back(add_array<vtkFloatArray>(grid_->GetCellData(), field.name, field.components, cells));
-  }
-  hidden_ = add_array<vtkUnsignedCharArray>(grid_->GetCellData(), vtkDataSetAttributes::GhostArrayName(), 1, cells);
-
   time_->SetName("TimeValue");
   time_->SetNumberOfTuples(1);
   cycle_->SetName("cycle");
   cycle_->SetNumberOfTuples(1);
   grid_->GetFieldData()->AddArray(time_);
   grid_->GetFieldData()->AddArray(cycle_);
+}
+
+void Animation::Grid::make_cells(const std::vector<Index>& shown) {
+  shown_ = shown;
+  const auto count = static_cast<vtkIdType>(shown.size());
+  grid_->Allocate(count);
+  grid_->GetCellData()->Initialize();
+  cell_arrays_.clear();
+  auto* element_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "element_id", 1, count);
+  auto* part_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "part_id", 1, count);
+  for (const CellField& field : fields_.cells) {
+    cell_arrays_.push_back(add_array<vtkFloatArray>(grid_->GetCellData(), field.name, field.components, count));
+  }
+  for (vtkIdType c = 0; c < count; ++c) {
+    const Cell& cell = cells_[static_cast<std::size_t>(shown[static_cast<std::size_t>(c)])];
+    std::array<vtkIdType, 8> corners{};
+    std::copy(cell.shape.nodes.begin(), cell.shape.nodes.end(), corners.begin());
+    grid_->InsertNextCell(vtk_type(cell.shape.kind), cell.shape.count, corners.data());
+    element_id->SetValue(c, cell.id);
+    part_id->SetValue(c, cell.part_id);
+  }
 }
 
 void Animation::Grid::fill_points(const cycle::Snapshot& now) {
@@ -175,24 +180,31 @@ void Animation::Grid::fill_points(const cycle::Snapshot& now) {
 }
 
 void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
-  std::array<double, 9> value{};
-  for (std::size_t e = 0; e < places_.size(); ++e) {
+  std::vector<Index> shown;
+  std::vector<ElementSample> samples;
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
     ElementSample sample;
-    if (places_[e].exists()) {
-      const elements::Group& group = *now.groups[static_cast<std::size_t>(places_[e].group)];
-      sample.output = group.output(places_[e].element);
-      sample.mass = group.element_mass(places_[e].element);
+    if (const ElementPlace place = cells_[e].place; place.exists()) {
+      const elements::Group& group = *now.groups[static_cast<std::size_t>(place.group)];
+      sample.output = group.output(place.element);
+      sample.mass = group.element_mass(place.element);
     }
-    for (std::size_t f = 0; f < fields_.cells.size(); ++f) {
-      const auto components = static_cast<std::size_t>(fields_.cells[f].components);
-      fields_.cells[f].write(sample, value.data());
-      float* out = cell_arrays_[f]->GetPointer(static_cast<vtkIdType>(e * components));
-      for (std::size_t c = 0; c < components; ++c) out[c] = to_float(value[c]);
-    }
-    hidden_->SetValue(static_cast<vtkIdType>(e), sample.output.off == 0.0 ? vtkDataSetAttributes::HIDDENCELL : 0);
+    if (sample.output.off == 0.0) continue;
+    shown.push_back(static_cast<Index>(e));
+    samples.push_back(sample);
   }
-  for (vtkFloatArray* array : cell_arrays_) array->Modified();
-  hidden_->Modified();
+  if (shown != shown_ || cell_arrays_.empty()) make_cells(shown);
+
+  std::array<double, 9> value{};
+  for (std::size_t f = 0; f < fields_.cells.size(); ++f) {
+    const auto components = static_cast<std::size_t>(fields_.cells[f].components);
+    float* out = cell_arrays_[f]->GetPointer(0);
+    for (const ElementSample& sample : samples) {
+      fields_.cells[f].write(sample, value.data());
+      for (std::size_t c = 0; c < components; ++c) *out++ = to_float(value[c]);
+    }
+    cell_arrays_[f]->Modified();
+  }
 }
 
 std::string Animation::Grid::serialise(const cycle::Snapshot& now) {

@@ -15,8 +15,9 @@ namespace abut::output {
 ///
 /// Points are all nodes at their positions x(t) (double precision; the initial ones are points - displacement). Cells are
 /// all elements in the order shells, 3-node shells, bricks, tetrahedra, each by id; degenerate bricks become wedges,
-/// pyramids or tetrahedra. Every state has the same points and cells: an eroded element stays, with `off` = 0 and VTK's
-/// "hidden cell" bit in vtkGhostType, which ParaView does not draw. Fields (animation_fields.hpp) are single precision.
+/// pyramids or tetrahedra. Deleted elements are left out from the state on in which they are gone (a "hidden" flag would
+/// not do: ParaView's default surface still draws such cells, torn between their free nodes); `element_id` tells which
+/// cell is which, and points never change. Fields (animation_fields.hpp) are single precision.
 /// Field data: TimeValue, cycle.
 class Animation final : public cycle::Sink {
  public:

@@ -50,7 +50,6 @@ const NodeField pressure_tangential{"contact_pressure_tangential", 3, [](const S
 const CellField plastic_strain{"plastic_strain", 1, [](const ElementSample& e, double* out) { *out = e.output.plastic_max; }};
 const CellField von_mises{"von_mises", 1, [](const ElementSample& e, double* out) { *out = e.output.von_mises; }};
 const CellField stress{"stress", 6, [](const ElementSample& e, double* out) { std::copy(e.output.stress.begin(), e.output.stress.end(), out); }};
-const CellField off{"off", 1, [](const ElementSample& e, double* out) { *out = e.output.off; }};
 const CellField energy{"energy_per_mass", 1, [](const ElementSample& e, double* out) {
                          *out = e.mass > 0.0 ? e.output.internal_energy / e.mass : 0.0;
                        }};
@@ -59,7 +58,7 @@ const CellField density{"density", 1, [](const ElementSample& e, double* out) { 
 const CellField thickness{"thickness", 1, [](const ElementSample& e, double* out) { *out = e.output.thickness; }};
 const CellField hourglass{"hourglass_energy", 1, [](const ElementSample& e, double* out) { *out = e.output.hourglass_energy; }};
 
-/// Selections that ask for something which every state has, or for nothing that is a field.
+/// Selections that ask for something which every state has (OFF: only active elements are in it), or for nothing that is a field.
 bool is_always_there(std::string_view s) {
   static const std::set<std::string_view> names{"VECT/DISP",        "VECT/VEL",         "VECT/CONT", "VECT/PCONT", "ELEM/EPSP",         "ELEM/VONM",
                                                 "ELEM/OFF",         "ELEM/SIGX",        "ELEM/SIGY", "ELEM/SIGZ",  "ELEM/SIGXY",        "ELEM/SIGYZ",
@@ -90,7 +89,7 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
       {"ELEM/HOURG", hourglass}, {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
 
   AnimationFields fields{{displacement, velocity, contact_force, pressure_normal, pressure_tangential},
-                         {plastic_strain, von_mises, stress, off},
+                         {plastic_strain, von_mises, stress},
                          {}};
   const auto add_once = [](auto& list, const auto& field) {
     if (std::none_of(list.begin(), list.end(), [&](const auto& f) { return f.name == field.name; })) list.push_back(field);

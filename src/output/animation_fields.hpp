@@ -35,7 +35,7 @@ struct AnimationFields {
 
 /// Always: displacement, velocity, contact_force, contact_pressure_normal, contact_pressure_tangential (net contact force
 /// of the node over its tributary area, so two passes do not count twice; zero where the area is zero); plastic_strain,
-/// von_mises, stress (XX YY ZZ XY YZ XZ, mean over the element, global axes), off.
+/// von_mises, stress (XX YY ZZ XY YZ XZ, mean over the element, global axes).
 /// @param selections  model::Controls::animation_fields, upper case
 [[nodiscard]] AnimationFields select_animation_fields(const std::vector<std::string>& selections);
 

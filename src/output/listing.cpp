@@ -71,8 +71,7 @@ void Listing::cycle(const cycle::Snapshot& now) {
 
 void Listing::end(const cycle::Outcome& outcome) {
   const state::Balance& b = record_.balance();
-  std::string text = fmt::format("\nThe run {} at time {:.8g} after {} cycles{}{}\n", outcome_name(outcome.kind), outcome.time, outcome.cycles,
-                                 outcome.message.empty() ? "." : ": ", outcome.message);
+  std::string text = fmt::format("\nThe run {}\n", outcome_text(outcome));
   text += fmt::format("Wall time   {:.2f} s, {:.4g} element-cycles/s\n", record_.wall_seconds(), record_.rate(outcome.cycles));
   text += fmt::format(
       "Energies    internal {:.6g}, hourglass {:.6g}, kinetic {:.6g}, rotational {:.6g}, contact stored {:.6g}, friction {:.6g}, damping "

@@ -150,6 +150,13 @@ std::string_view outcome_name(cycle::Outcome::Kind kind) {
   return "failed";
 }
 
+std::string outcome_text(const cycle::Outcome& outcome) {
+  using Kind = cycle::Outcome::Kind;
+  const bool passive = outcome.kind == Kind::stopped || outcome.kind == Kind::interrupted;
+  return fmt::format("{}{} at time {:.8g} after {} cycles{}{}", passive ? "was " : "", outcome_name(outcome.kind), outcome.time, outcome.cycles,
+                     outcome.message.empty() ? "" : ": ", outcome.message);
+}
+
 Index element_count(const model::Model& model) {
   return model.shells.size() + model.sh3ns.size() + model.bricks.size() + model.tetras.size();
 }

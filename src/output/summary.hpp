@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "cycle/sink.hpp"
 #include "model/model.hpp"
@@ -21,6 +22,8 @@ namespace abut::output {
 [[nodiscard]] std::string_view controller_name(cycle::StepController::Kind kind);
 /// "finished", "stopped", "interrupted", "failed".
 [[nodiscard]] std::string_view outcome_name(cycle::Outcome::Kind kind);
+/// "finished at time 0.2 after 77 cycles" with the outcome's message behind a colon.
+[[nodiscard]] std::string outcome_text(const cycle::Outcome& outcome);
 
 /// Elements of all kinds.
 [[nodiscard]] Index element_count(const model::Model& model);

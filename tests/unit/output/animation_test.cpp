@@ -5,7 +5,6 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -139,7 +138,6 @@ TEST_F(AnimationTest, ElementFieldsThatEveryStateHas) {
     const auto expected = FakeGroup::expected(table_index[static_cast<std::size_t>(c)], 1.0);
     expect_cell(grid, "plastic_strain", c, expected.plastic_max);
     expect_cell(grid, "von_mises", c, expected.von_mises);
-    expect_cell(grid, "off", c, 1.0);
     for (int k = 0; k < 6; ++k) expect_cell(grid, "stress", c, expected.stress[static_cast<std::size_t>(k)], k);
   }
   EXPECT_STREQ(grid->GetCellData()->GetArray("stress")->GetComponentName(0), "XX");
@@ -170,23 +168,40 @@ TEST_F(AnimationTest, SelectionsThatAreNotComputedAreNamed) {
             (std::vector<std::string>{"VECT/FOPT", "SHELL/TENS/STRESS/UPPER"}));
 }
 
-TEST_F(AnimationTest, AnErodedElementStaysAsAHiddenCell) {
+TEST_F(AnimationTest, ADeletedElementIsLeftOutFromThenOn) {
+  Animation sink(folder_);
+  sink.begin(scene_.snapshot());
+  write(sink, 0.0);
   scene_.group(2).remove(1);
-  const auto grid = written();
-  ASSERT_EQ(grid->GetNumberOfCells(), 6);
-  vtkDataArray* hidden = grid->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName());
-  ASSERT_NE(hidden, nullptr);
-  for (vtkIdType c = 0; c < 6; ++c) {
-    expect_cell(grid, "off", c, c == 3 ? 0.0 : 1.0);
-    EXPECT_EQ(hidden->GetComponent(c, 0), c == 3 ? vtkDataSetAttributes::HIDDENCELL : 0) << c;
+  write(sink, 0.1);
+  EXPECT_EQ(read_grid(folder_.animation_state(0))->GetNumberOfCells(), 6);
+  const auto grid = read_grid(folder_.animation_state(1));
+  const std::vector<double> ids{31, 32, 41, 43, 51};
+  const std::vector<int> types{VTK_QUAD, VTK_TRIANGLE, VTK_HEXAHEDRON, VTK_TETRA, VTK_TETRA};
+  const std::vector<Index> table_index{0, 0, 0, 2, 0};
+  ASSERT_EQ(grid->GetNumberOfCells(), 5);
+  EXPECT_EQ(grid->GetNumberOfPoints(), 12);
+  for (vtkIdType c = 0; c < 5; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    EXPECT_EQ(grid->GetCellData()->GetArray("element_id")->GetComponent(c, 0), ids[k]);
+    EXPECT_EQ(grid->GetCellType(c), types[k]);
+    expect_cell(grid, "von_mises", c, FakeGroup::expected(table_index[k], 1.0).von_mises);
   }
+}
+
+TEST_F(AnimationTest, AStateWithoutCellsCanBeRead) {
+  for (std::size_t g = 0; g < 4; ++g) {
+    for (Index e = 0; e < scene_.group(g).size(); ++e) scene_.group(g).remove(e);
+  }
+  const auto grid = written();
+  EXPECT_EQ(grid->GetNumberOfCells(), 0);
+  EXPECT_EQ(grid->GetNumberOfPoints(), 12);
 }
 
 TEST_F(AnimationTest, AnElementWithoutAGroupShowsZeros) {
   scene_.groups.pop_back();  // the tetrahedron's
   const auto grid = written();
   expect_cell(grid, "von_mises", 5, 0.0);
-  expect_cell(grid, "off", 5, 1.0);
 }
 
 TEST_F(AnimationTest, ValuesBeyondSinglePrecisionStayFinite) {

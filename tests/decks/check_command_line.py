@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Use abut's command line as a user does: exit codes, messages, a run, an interrupted run.
+
+usage: check_command_line.py ABUT DECK
+
+ABUT is the program, DECK a Starter deck that has no errors and whose run lasts a second or more. Standard library only.
+Exit status 0 when all holds.
+"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+
+def call(*arguments, **options):
+    return subprocess.run(list(arguments), capture_output=True, text=True, **options)
+
+
+def expect(condition, what, result=None):
+    if not condition:
+        print(f"not so: {what}", file=sys.stderr)
+        if result is not None:
+            print(result.stdout, result.stderr, sep="\n", file=sys.stderr)
+        sys.exit(1)
+
+
+def usage(abut):
+    expect(call(abut, "--version").returncode == 0, "--version ends with 0")
+    for arguments in (("--help",), ("run", "--help"), ("check", "--help")):
+        expect(call(abut, *arguments).returncode == 0, f"{' '.join(arguments)} ends with 0")
+    for arguments in ((), ("run",), ("fly",), ("run", "x", "--profile", "none"), ("run", "x", "--threads", "0"), ("run", "x", "--hash-every", "often")):
+        result = call(abut, *arguments)
+        expect(result.returncode == 2 and result.stderr, f"wrong usage {arguments} ends with 2 and a message", result)
+    result = call(abut, "check", "no such deck_0000.rad")
+    expect(result.returncode == 1 and "no such deck_0000.rad" in result.stderr, "a missing deck ends with 1 and is named", result)
+
+
+def check(abut, deck):
+    result = call(abut, "check", deck)
+    expect(result.returncode == 0 and "Counts" in result.stdout, "check summarises", result)
+    result = call(abut, "check", deck, "--json")
+    expect(result.returncode == 0, "check --json ends with 0", result)
+    document = json.loads(result.stdout)
+    expect(document["ok"] and document["model"]["nodes"] > 0, "check --json says that the deck is good", result)
+    return document["model"]["name"]
+
+
+def interrupted(abut, deck, name, folder):
+    """Ctrl-C after the first history row: complete files, status 1, the manifest says so."""
+    process = subprocess.Popen([abut, "run", deck, "-o", folder, "--quiet"], stderr=subprocess.PIPE, text=True)
+    history = os.path.join(folder, name + "_th.csv")
+    limit = time.monotonic() + 60
+    while time.monotonic() < limit and process.poll() is None:
+        if os.path.exists(history) and open(history).read().count("\n") > 1:
+            break
+        time.sleep(0.02)
+    expect(process.poll() is None, "the run lasts long enough to be interrupted")
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=60)
+    expect(process.returncode == 1, "an interrupted run ends with 1")
+    with open(os.path.join(folder, "run.json")) as file:
+        expect(json.load(file)["outcome"]["kind"] == "interrupted", "run.json says that it was interrupted")
+    with open(os.path.join(folder, name + ".out")) as file:
+        expect("was interrupted" in file.read(), "the listing says that it was interrupted")
+    with open(history) as file:
+        lines = file.read()
+    columns = {line.count(",") for line in lines.splitlines()}
+    expect(lines.endswith("\n") and len(columns) == 1, "every history row is complete")
+
+
+def complete(abut, deck, name, folder):
+    result = call(abut, "run", deck, "-o", folder, "--timing")
+    expect(result.returncode == 0, "the run ends with 0", result)
+    for file in (name + ".out", name + "_th.csv", "run.json"):
+        expect(os.path.getsize(os.path.join(folder, file)) > 0, f"{file} is there")
+    with open(os.path.join(folder, "run.json")) as file:
+        expect(json.load(file)["outcome"]["kind"] == "finished", "run.json says that it finished")
+
+
+def unwritable(abut, deck, folder):
+    blocked = os.path.join(folder, "file")
+    open(blocked, "w").close()
+    result = call(abut, "run", deck, "-o", os.path.join(blocked, "run"))
+    expect(result.returncode == 1 and blocked in result.stderr, "a run folder that cannot be made is named", result)
+
+
+def main():
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    abut, deck = sys.argv[1:]
+    usage(abut)
+    name = check(abut, deck)
+    with tempfile.TemporaryDirectory() as folder:
+        interrupted(abut, deck, name, os.path.join(folder, "interrupted"))
+        complete(abut, deck, name, os.path.join(folder, "complete"))
+        unwritable(abut, deck, folder)
+    print("the command line does what it says")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
