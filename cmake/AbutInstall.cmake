@@ -8,10 +8,10 @@ install(TARGETS abut_contact EXPORT abutContactTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT abutContactTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR})
 
-set(ABUT_STAGES core simd parallel deck model elements state init constraints cycle output)
 if(NOT ABUT_CONTACT_ONLY)
   set_target_properties(abut_abut PROPERTIES EXPORT_NAME abut)
-  list(TRANSFORM ABUT_STAGES PREPEND abut_ OUTPUT_VARIABLE stage_targets)
+  get_property(stage_targets GLOBAL PROPERTY ABUT_STAGES)
+  list(REMOVE_ITEM stage_targets abut_contact)
   install(TARGETS ${stage_targets} abut_abut EXPORT abutTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT abutTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR})

@@ -4,7 +4,8 @@
 usage: check_docs.py [ROOT]
 
 - Links between Markdown files lead to files, and to headings, that exist.
-- Tags such as [Flanagan 1981] or [Bridson et al. 2002] in docs/, include/, src/ and tests/ are keys of docs/references.bib.
+- Tags such as [Flanagan 1981] or [Bridson et al. 2002] in docs/, include/, src/ and tests/ name an author and the year of an
+  entry of docs/references.bib; with a letter (1984a) they are its key.
 - Every page of docs/ can be reached from docs/index.md.
 - docs/theory/statements.md is what tools/statement_table.py writes.
 Exit status 1 if something is wrong. Standard library only.
@@ -15,8 +16,9 @@ import sys
 from pathlib import Path
 
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
-TAGS = re.compile(r"\[((?:[A-Z][A-Za-z]+(?:-[A-Z][a-z]+)*(?:,? (?:and|et al\.?|& [A-Z][a-z]+))?,? [12]\d{3}[a-z]?(?:, [^\];]*)?(?:; )?)+[^\]]*)\]")
-TAG = re.compile(r"\b([A-Z][A-Za-z]+)[^;\]]*? ([12]\d{3}[a-z]?)\b")
+BRACKET = re.compile(r"\[([^\[\]]*)\]")
+NAME = r"[A-Z][A-Za-z-]+"
+TAG = re.compile(rf"^\s*({NAME})(?:,? (?:and |& )?{NAME})*(?: et al\.?)?,? \(?([12]\d{{3}}[a-z]?)\b")
 FENCE = re.compile(r"^(```|~~~)")
 
 
@@ -39,6 +41,21 @@ def anchors(text):
             heading = re.sub(r"[`*\[\]]", "", match.group(1)).strip().lower()
             found.add(re.sub(r"[^\w\- ]", "", heading).replace(" ", "-"))
     return found
+
+
+def references(path):
+    """Keys of a bibliography, and every author with the year."""
+    known = set()
+    for entry in re.split(r"\n(?=@)", path.read_text(encoding="utf-8")) if path.is_file() else ():
+        key = re.match(r"@\w+\{([^,\s]+),", entry)
+        author = re.search(r"author = \{(.*?)\},\s", entry)
+        year = re.search(r"year = \{(\d{4})\}", entry)
+        if key:
+            known.add(key.group(1))
+        if author and year:
+            surnames = [name.split(",")[0].strip().split(" ")[-1] for name in author.group(1).split(" and ")]
+            known |= {surname + year.group(1) for surname in surnames}
+    return known
 
 
 def main():
@@ -71,23 +88,22 @@ def main():
         front |= {target for target in links.get(page, ()) if target in text} - reached
     faults += [f"{page.relative_to(root)}: not reached from docs/index.md" for page in pages if page not in reached and page.is_relative_to(root / "docs")]
 
-    bibliography = root / "docs" / "references.bib"
-    keys = set(re.findall(r"@\w+\{([^,\s]+),", bibliography.read_text(encoding="utf-8"))) if bibliography.is_file() else set()
+    known = references(root / "docs" / "references.bib")
     sources = [path for folder in ("include", "src", "tests", "apps", "bench") for path in sorted((root / folder).rglob("*"))
                if path.suffix in (".hpp", ".cpp")]
     for path in [page for page in pages if page.is_relative_to(root / "docs")] + sources:
         content = text.get(path) or path.read_text(encoding="utf-8")
         for number, line in prose(content) if path in text else enumerate(content.splitlines(), 1):
-            for group in TAGS.findall(line):
-                for author, year in TAG.findall(group):
-                    if author + year not in keys:
+            for group in BRACKET.findall(line):
+                for author, year in (match.groups() for part in group.split(";") if (match := TAG.match(part))):
+                    if author + year not in known:
                         faults.append(f"{path.relative_to(root)}:{number}: [{author} {year}] is not in docs/references.bib")
 
     table = root / "tools" / "statement_table.py"
     if table.is_file() and subprocess.run([sys.executable, str(table), "--check"], stdout=subprocess.DEVNULL).returncode != 0:
         faults.append("docs/theory/statements.md is not current: run tools/statement_table.py")
 
-    print("\n".join(faults + [f"{len(pages)} pages, {len(keys)} references: {len(faults)} faults"]))
+    print("\n".join(faults + [f"{len(pages)} pages, {len(known)} names of references: {len(faults)} faults"]))
     return 1 if faults or not pages else 0
 
 

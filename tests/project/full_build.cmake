@@ -1,0 +1,28 @@
+# cmake -DSOURCE=... -DWORK=... -DGENERATOR=... (-DPRESET=name | -DCXX=... [-DFLAGS=...]) [-DRUN_TESTS=ON] -P full_build.cmake
+# Builds the project in WORK, and runs its tests there if asked.
+include(ProcessorCount)
+ProcessorCount(jobs)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status WORKING_DIRECTORY ${SOURCE})
+  if(NOT status EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${status}): ${command}")
+  endif()
+endfunction()
+
+if(PRESET)
+  run(${CMAKE_COMMAND} --preset ${PRESET} -B ${WORK})
+else()
+  find_program(compiler ${CXX})
+  if(NOT compiler)
+    message("skipped: no ${CXX}")
+    return()
+  endif()
+  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} "-DCMAKE_CXX_FLAGS=${FLAGS}")
+endif()
+run(${CMAKE_COMMAND} --build ${WORK} --parallel ${jobs})
+if(RUN_TESTS)
+  get_filename_component(bin ${CMAKE_COMMAND} DIRECTORY)
+  run(${bin}/ctest --test-dir ${WORK} --output-on-failure --parallel ${jobs} --label-exclude "^full$")
+endif()
