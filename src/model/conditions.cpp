@@ -245,15 +245,15 @@ void read_conditions(Context& c) {
     if (is_keyword(block, "RWALL")) read_rigid_wall(c, block);
   }
   Model& m = *c.model;
-  sort_by_id(c, m.boundary_conditions, "/BCS", true);
+  order_by_id(c, m.boundary_conditions, "BCS", true);
   std::stable_sort(m.imposed_motions.begin(), m.imposed_motions.end(), [](const ImposedMotion& a, const ImposedMotion& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.id < b.id;
   });
-  sort_by_id(c, m.concentrated_loads, "/CLOAD", true);
-  sort_by_id(c, m.pressure_loads, "/PLOAD", true);
-  sort_by_id(c, m.gravities, "/GRAV", true);
-  sort_by_id(c, m.rigid_bodies, "/RBODY", false);
-  sort_by_id(c, m.rigid_walls, "/RWALL", false);
+  order_by_id(c, m.concentrated_loads, "CLOAD", true);
+  order_by_id(c, m.pressure_loads, "PLOAD", true);
+  order_by_id(c, m.gravities, "GRAV", true);
+  order_by_id(c, m.rigid_bodies, "RBODY", false);
+  order_by_id(c, m.rigid_walls, "RWALL", false);
   // Initial velocities keep the order of the deck: where two touch one node the last one wins (D.2).
   std::stable_sort(m.added_masses.begin(), m.added_masses.end(),
                    [](const AddedMass& a, const AddedMass& b) { return a.node < b.node; });

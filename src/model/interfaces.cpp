@@ -325,7 +325,7 @@ void read_interfaces(Context& c) {
                          "these interfaces are not supported, and without them the result would be wrong: " + list +
                              "; use /INTER/TYPE3, TYPE5 or TYPE7");
   }
-  sort_by_id(c, c.model->interfaces, "/INTER", false);
+  order_by_id(c, c.model->interfaces, "INTER", false);
   fill_table(c.tables.interfaces, c.model->interfaces);
   orient(c);
 }
