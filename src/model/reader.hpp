@@ -31,10 +31,18 @@ struct Tables {
   Map shell_groups, sh3n_groups, brick_groups, part_groups;  ///< into Context::element_groups / part_groups
 };
 
-/// Members of an element or part group, sorted indices.
+/// Members of an element or part group, sorted indices. In a brick group k < #bricks is a brick, k - #bricks a tetrahedron.
 struct IndexGroup {
   Id id = 0;
   std::vector<Index> members;
+};
+
+/// /DEF_SHELL and /DEF_SOLID with built-in defaults filled in (A.12).
+struct ShellDefaults {
+  int ishell = 1, ismstr = 2, ithick = 2, iplas = 2, ish3n = 2, idrill = 0;
+};
+struct SolidDefaults {
+  int isolid = 1, ismstr = 4, icpre = 0, itetra4 = 1000, imas = 2, iframe = 1;
 };
 
 /// State of one model build.
@@ -44,6 +52,9 @@ struct Context {
   Diagnostics* diagnostics = nullptr;
   Tables tables;
   std::vector<IndexGroup> shell_groups, sh3n_groups, brick_groups, part_groups;
+  ShellDefaults shell_defaults;
+  SolidDefaults solid_defaults;
+  std::vector<Id> part_subset;             ///< subset id of each part (0: root)
   Units input;                             ///< units of the deck's values; work units are model->units
   std::unordered_map<Id, Units> local;     ///< /UNIT/id
 

@@ -1,0 +1,42 @@
+#include "model/build.hpp"
+
+#include <utility>
+
+#include "model/reader.hpp"
+
+namespace abut::model {
+
+Model build(const deck::DeckPair& deck, Diagnostics& diagnostics) {
+  Model model;
+  if (deck.starter.blocks.empty()) return model;  // reported by the deck stage
+  Context c;
+  c.deck = &deck.starter;
+  c.model = &model;
+  c.diagnostics = &diagnostics;
+  read_control(c);
+  check_keywords(c);
+  read_mesh(c);
+  read_sets(c);
+  read_sensors(c);
+  read_conditions(c);
+  read_interfaces(c);
+  read_outputs(c);
+  if (deck.has_engine) {
+    read_engine(c, deck.engine);
+  } else {
+    Place place;
+    place.file = deck.starter.files.front();
+    diagnostics.warning("model.no_engine", std::move(place), "no Engine deck NAME_0001.rad beside it: the model can be checked but not run");
+  }
+  validate(c);
+  return model;
+}
+
+Model load(const std::filesystem::path& starter, Diagnostics& diagnostics) {
+  const deck::DeckPair deck = deck::read(starter, diagnostics);
+  Model model = build(deck, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  return model;
+}
+
+}  // namespace abut::model

@@ -1,0 +1,188 @@
+// Which groups, surfaces and sets there are; their evaluation on demand; their place in the model.
+#include "model/sets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "deck/text.hpp"
+#include "model/sort_by_id.hpp"
+
+namespace abut::model {
+
+namespace {
+
+constexpr int deepest_nesting = 200;
+
+constexpr std::array<std::string_view, set_family_count> names{"/GRNOD", "/GRSHEL", "/GRSH3N", "/GRBRIC", "/GRPART", "/SURF", "/SET"};
+
+}  // namespace
+
+std::string_view family_name(SetFamily family) { return names[static_cast<std::size_t>(family)]; }
+
+void make_set(std::vector<Index>& members) {
+  if (!std::is_sorted(members.begin(), members.end())) std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+}
+
+std::vector<Index> difference(const std::vector<Index>& a, const std::vector<Index>& b) {
+  std::vector<Index> out;
+  out.reserve(a.size());
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
+  return out;
+}
+
+std::array<Index, 4> reversed_nodes(const std::array<Index, 4>& n) {
+  if (n[2] == n[3]) return {n[2], n[1], n[0], n[0]};
+  return {n[3], n[2], n[1], n[0]};
+}
+
+SetReader::SetReader(Context& c) : c_(c), m_(*c.model), boxes_(c) {
+  const std::size_t parts = m_.parts.size();
+  part_shells_.resize(parts);
+  part_sh3ns_.resize(parts);
+  part_solids_.resize(parts);
+  for (Index e = 0; e < m_.shells.size(); ++e) part_shells_[static_cast<std::size_t>(m_.shells.part[static_cast<std::size_t>(e)])].push_back(e);
+  for (Index e = 0; e < m_.sh3ns.size(); ++e) part_sh3ns_[static_cast<std::size_t>(m_.sh3ns.part[static_cast<std::size_t>(e)])].push_back(e);
+  for (Index e = 0; e < solid_count(m_); ++e) part_solids_[static_cast<std::size_t>(solid_part(m_, e))].push_back(e);
+  for (std::size_t p = 0; p < parts; ++p) subset_parts_[c_.part_subset[p]].push_back(static_cast<Index>(p));
+}
+
+void SetReader::collect() {
+  std::array<std::unordered_map<Id, Place>, set_family_count> first;
+  std::unordered_map<Id, Place> first_subset;
+  for (const deck::Block& b : c_.deck->blocks) {
+    if (b.is(0, "SUBSET")) {
+      BlockReader r(c_, b, 1, true);
+      if (r.id() > 0 && !first_subset.emplace(r.id(), r.place()).second) report_duplicate(c_, "/SUBSET", r.id(), r.place(), first_subset[r.id()]);
+      std::vector<Id>& children = subset_children_[r.id()];
+      for (const Id child : r.id_list("subset_ID")) children.push_back(child);
+      continue;
+    }
+    const auto name = std::find_if(names.begin(), names.end(), [&](std::string_view n) { return b.is(0, n.substr(1)); });
+    if (name == names.end()) continue;
+    const auto family = static_cast<SetFamily>(name - names.begin());
+    if (family == SetFamily::set && !b.is(1, "GENERAL")) {
+      c_.diagnostics->error("model.unknown_type", c_.deck->place(b), "of the types of /SET only GENERAL is supported");
+      continue;
+    }
+    const bool has_option = family == SetFamily::surf && (b.is(2, "EXT") || b.is(2, "ALL") || b.is(2, "FREE"));
+    Item& item = items_.emplace_back();
+    item.family = family;
+    item.block = &b;
+    item.id_word = has_option ? 3 : 2;
+    const BlockReader r(c_, b, item.id_word, true);
+    item.id = r.id();
+    item.title = r.title();
+    const auto slot = static_cast<std::size_t>(family);
+    if (item.id <= 0) continue;
+    if (by_id_[slot].emplace(item.id, &item).second) {
+      first[slot].emplace(item.id, r.place());
+    } else {
+      report_duplicate(c_, family_name(family), item.id, r.place(), first[slot][item.id]);
+    }
+  }
+}
+
+SetReader::Item* SetReader::find(SetFamily family, Id id) {
+  for (const SetFamily f : {family, SetFamily::set}) {
+    const auto& table = by_id_[static_cast<std::size_t>(f)];
+    const auto found = table.find(id);
+    if (found != table.end()) return found->second;
+  }
+  return nullptr;
+}
+
+bool SetReader::evaluate(Item& item) {
+  if (item.state == Item::State::done) return true;
+  if (item.state == Item::State::in_progress || depth_ >= deepest_nesting) {
+    c_.diagnostics->error("model.circular_reference", c_.deck->place(*item.block), "the set contains itself, or sets are nested too deeply");
+    return false;
+  }
+  item.state = Item::State::in_progress;
+  ++depth_;
+  switch (item.family) {
+    case SetFamily::grnod: evaluate_node_group(item); break;
+    case SetFamily::grshel:
+    case SetFamily::grsh3n:
+    case SetFamily::grbric: evaluate_element_group(item); break;
+    case SetFamily::grpart: evaluate_part_group(item); break;
+    case SetFamily::surf: evaluate_surface(item); break;
+    case SetFamily::set: evaluate_general_set(item); break;
+  }
+  --depth_;
+  item.state = Item::State::done;
+  return true;
+}
+
+const SetReader::Members* SetReader::members(SetFamily family, Id id) {
+  Item* item = find(family, id);
+  if (item == nullptr || !evaluate(*item)) return nullptr;
+  if (item->family != SetFamily::set || family == SetFamily::grnod) return &item->members;
+  switch (family) {
+    case SetFamily::grshel: return &item->shells;
+    case SetFamily::grsh3n: return &item->sh3ns;
+    case SetFamily::grbric: return &item->solids;
+    default: return &item->parts;
+  }
+}
+
+const std::vector<Segment>* SetReader::segments(Id id) {
+  Item* item = find(SetFamily::surf, id);
+  return item != nullptr && evaluate(*item) ? &item->segments : nullptr;
+}
+
+void SetReader::register_results() {
+  Model& m = *c_.model;
+  std::vector<Item*> order;
+  for (Item& item : items_) {
+    if (item.id > 0 && by_id_[static_cast<std::size_t>(item.family)].at(item.id) == &item) order.push_back(&item);
+  }
+  // Sets come after the family they may stand in for, so that a group of the same id wins.
+  std::stable_sort(order.begin(), order.end(), [](const Item* a, const Item* b) {
+    return std::pair(a->id, a->family == SetFamily::set) < std::pair(b->id, b->family == SetFamily::set);
+  });
+  const auto add_group = [](Tables::Map& table, std::vector<IndexGroup>& groups, Id id, Members members) {
+    if (table.emplace(id, static_cast<Index>(groups.size())).second) groups.push_back({id, std::move(members)});
+  };
+  for (Item* item : order) {
+    const bool is_set = item->family == SetFamily::set;
+    if (item->family == SetFamily::grnod || is_set) {
+      if (c_.tables.node_groups.emplace(item->id, static_cast<Index>(m.node_groups.size())).second) {
+        m.node_groups.push_back({item->id, item->title, std::move(item->members)});
+      }
+    }
+    if (item->family == SetFamily::surf || (is_set && !item->segments.empty())) {
+      if (c_.tables.surfaces.emplace(item->id, static_cast<Index>(m.surfaces.size())).second) {
+        m.surfaces.push_back({item->id, item->title, std::move(item->segments)});
+      }
+    }
+    switch (item->family) {
+      case SetFamily::grshel: add_group(c_.tables.shell_groups, c_.shell_groups, item->id, std::move(item->members)); break;
+      case SetFamily::grsh3n: add_group(c_.tables.sh3n_groups, c_.sh3n_groups, item->id, std::move(item->members)); break;
+      case SetFamily::grbric: add_group(c_.tables.brick_groups, c_.brick_groups, item->id, std::move(item->members)); break;
+      case SetFamily::grpart: add_group(c_.tables.part_groups, c_.part_groups, item->id, std::move(item->members)); break;
+      case SetFamily::set:
+        add_group(c_.tables.shell_groups, c_.shell_groups, item->id, std::move(item->shells));
+        add_group(c_.tables.sh3n_groups, c_.sh3n_groups, item->id, std::move(item->sh3ns));
+        add_group(c_.tables.brick_groups, c_.brick_groups, item->id, std::move(item->solids));
+        add_group(c_.tables.part_groups, c_.part_groups, item->id, std::move(item->parts));
+        break;
+      default: break;
+    }
+  }
+}
+
+void SetReader::read() {
+  collect();
+  for (Item& item : items_) {
+    if (item.state == Item::State::unknown) evaluate(item);
+  }
+  register_results();
+}
+
+void read_sets(Context& c) { SetReader(c).read(); }
+
+}  // namespace abut::model
