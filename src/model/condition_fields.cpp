@@ -95,6 +95,27 @@ int read_direction(BlockReader& r, deck::Columns c, std::string_view field) {
   return 0;
 }
 
+Place place_of(const Context& c, std::string_view word, Id id, int nth) {
+  for (const deck::Block& block : c.deck->blocks) {
+    if (!is_keyword(block, word)) continue;
+    const std::string_view text = is_id(block.word(1)) && !same_word(word, "ADMAS") ? block.word(1) : block.word(2);
+    if (deck::parse_integer(text) == id && nth-- == 0) return c.deck->place(block);
+  }
+  Place p;
+  p.keyword = fmt::format("/{}/{}", word, id);
+  return p;
+}
+
+void report_second(Context& c, std::string_view word, Id id, bool both_act) {
+  const Place first = place_of(c, word, id, 0);
+  const std::string message = fmt::format("a second /{} with id {} (the first is at {}:{}): ", word, id, first.file, first.line);
+  if (both_act) {
+    c.diagnostics->warning("model.duplicate_id", place_of(c, word, id, 1), message + "both act; ids should be unique");
+  } else {
+    c.diagnostics->error("model.duplicate_id", place_of(c, word, id, 1), message + "ids must be unique");
+  }
+}
+
 int integer_in(BlockReader& r, deck::Columns c, std::string_view field, int low, int high, std::string_view what_is_right) {
   const Id value = r.integer(c, field);
   if (value < low || value > high) {

@@ -9,7 +9,7 @@
 
 namespace abut::model {
 
-/// Case-insensitive comparison of a keyword's word.
+/// Case-insensitive comparison of words.
 [[nodiscard]] bool same_word(std::string_view a, std::string_view b);
 
 /// True when the block's keyword starts with these words.
@@ -48,19 +48,19 @@ void refuse(Context& c, const deck::Block& block, std::string message);
 [[nodiscard]] int integer_in(BlockReader& r, deck::Columns c, std::string_view field, int low, int high,
                              std::string_view what_is_right);
 
-/// Sorts by id; two of one id are an error, or, where both can act at once, a warning.
+/// Where the deck defines keyword `word` ("INTER") with this id for the `nth` time (0: first); without a line if it does not.
+[[nodiscard]] Place place_of(const Context& c, std::string_view word, Id id, int nth = 0);
+
+/// A second item with one id: an error, or, where both can act at once, a warning.
+void report_second(Context& c, std::string_view word, Id id, bool both_act);
+
+/// Sorts by id and reports ids that are used twice.
 template <class T>
-void sort_by_id(Context& c, std::vector<T>& items, std::string_view keyword, bool both_act) {
+void order_by_id(Context& c, std::vector<T>& items, std::string_view word, bool both_act) {
   std::stable_sort(items.begin(), items.end(), [](const T& a, const T& b) { return a.id < b.id; });
   for (std::size_t i = 1; i < items.size(); ++i) {
-    if (items[i].id != items[i - 1].id || (i > 1 && items[i - 2].id == items[i].id)) continue;
-    Place place;
-    place.keyword = std::string(keyword) + "/" + std::to_string(items[i].id);
-    if (both_act) {
-      c.diagnostics->warning("model.duplicate_id", place, "this id is given more than once; all of them act; ids should differ");
-    } else {
-      c.diagnostics->error("model.duplicate_id", place, "this id is given more than once; every one needs an id of its own");
-    }
+    const bool second = items[i].id == items[i - 1].id && (i == 1 || items[i - 2].id != items[i].id);
+    if (second && items[i].id != 0) report_second(c, word, items[i].id, both_act);
   }
 }
 

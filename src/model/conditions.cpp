@@ -9,7 +9,6 @@ namespace abut::model {
 namespace {
 
 void read_bcs(Context& c, const deck::Block& block) {
-  if (!is_id(block.word(1))) return refuse(c, block, "this form is not supported; write the condition as /BCS/id");
   BlockReader r(c, block, 1, true);
   BoundaryCondition b;
   b.id = r.id();
@@ -100,15 +99,10 @@ void read_initial_velocity(Context& c, const deck::Block& block) {
   if (same_word(kind, "TRA") || same_word(kind, "T+G")) return read_uniform_velocity(c, block, false);
   if (same_word(kind, "ROT")) return read_uniform_velocity(c, block, true);
   if (same_word(kind, "AXIS")) return read_axis_velocity(c, block);
-  if (same_word(kind, "NODE")) return read_nodal_velocities(c, block);
-  if (same_word(kind, "GRID") || same_word(kind, "FVM")) return;  // velocities of a fluid mesh or an airbag
-  refuse(c, block, "this kind of initial velocity is not supported; use TRA, ROT, AXIS or NODE");
+  if (same_word(kind, "NODE")) read_nodal_velocities(c, block);
 }
 
 void read_imposed_motion(Context& c, const deck::Block& block, ImposedMotion::Kind kind) {
-  if (!is_id(block.word(1))) {
-    return refuse(c, block, fmt::format("this form of imposed motion is not supported; write /{}/id", block.word(0)));
-  }
   BlockReader r(c, block, 1, true);
   ImposedMotion m;
   m.id = r.id();
@@ -162,7 +156,6 @@ void refuse_abscissa(BlockReader& r, deck::Columns c) {
 }
 
 void read_concentrated_load(Context& c, const deck::Block& block) {
-  if (!is_id(block.word(1))) return refuse(c, block, "this form of load is not supported; write /CLOAD/id");
   BlockReader r(c, block, 1, true);
   ConcentratedLoad l;
   l.id = r.id();
@@ -180,7 +173,6 @@ void read_concentrated_load(Context& c, const deck::Block& block) {
 }
 
 void read_pressure_load(Context& c, const deck::Block& block) {
-  if (!is_id(block.word(1))) return refuse(c, block, "this form of load is not supported; write /PLOAD/id");
   BlockReader r(c, block, 1, true);
   PressureLoad l;
   l.id = r.id();
@@ -232,6 +224,7 @@ void read_gravity(Context& c, const deck::Block& block) {
 
 void read_conditions(Context& c) {
   for (const deck::Block& block : c.deck->blocks) {
+    if (is_refused(block)) continue;
     if (is_keyword(block, "BCS")) read_bcs(c, block);
     if (is_keyword(block, "INIVEL")) read_initial_velocity(c, block);
     if (is_keyword(block, "IMPVEL")) read_imposed_motion(c, block, ImposedMotion::Kind::velocity);
@@ -245,15 +238,15 @@ void read_conditions(Context& c) {
     if (is_keyword(block, "RWALL")) read_rigid_wall(c, block);
   }
   Model& m = *c.model;
-  sort_by_id(c, m.boundary_conditions, "/BCS", true);
+  order_by_id(c, m.boundary_conditions, "BCS", true);
   std::stable_sort(m.imposed_motions.begin(), m.imposed_motions.end(), [](const ImposedMotion& a, const ImposedMotion& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.id < b.id;
   });
-  sort_by_id(c, m.concentrated_loads, "/CLOAD", true);
-  sort_by_id(c, m.pressure_loads, "/PLOAD", true);
-  sort_by_id(c, m.gravities, "/GRAV", true);
-  sort_by_id(c, m.rigid_bodies, "/RBODY", false);
-  sort_by_id(c, m.rigid_walls, "/RWALL", false);
+  order_by_id(c, m.concentrated_loads, "CLOAD", true);
+  order_by_id(c, m.pressure_loads, "PLOAD", true);
+  order_by_id(c, m.gravities, "GRAV", true);
+  order_by_id(c, m.rigid_bodies, "RBODY", false);
+  order_by_id(c, m.rigid_walls, "RWALL", false);
   // Initial velocities keep the order of the deck: where two touch one node the last one wins (D.2).
   std::stable_sort(m.added_masses.begin(), m.added_masses.end(),
                    [](const AddedMass& a, const AddedMass& b) { return a.node < b.node; });

@@ -1,9 +1,7 @@
-// /INTER/TYPE3, TYPE5 and TYPE7 (deck-format.md E.1 to E.3, numerics.md 7.2.1). Any other contact changes the mechanics when it is
-// left out: it is refused.
+// /INTER/TYPE3, TYPE5 and TYPE7 (deck-format.md E.1 to E.3, numerics.md 7.2.1).
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 
 #include "model/condition_fields.hpp"
 #include "model/orientation.hpp"
@@ -303,29 +301,12 @@ void orient(Context& c) {
 }  // namespace
 
 void read_interfaces(Context& c) {
-  std::map<std::string, std::vector<std::string>> refused;
   for (const deck::Block& block : c.deck->blocks) {
-    if (!is_keyword(block, "INTER")) continue;
-    if (same_word(block.word(1), "TYPE3")) {
-      c.model->interfaces.push_back(read_type3(c, block));
-    } else if (same_word(block.word(1), "TYPE5")) {
-      c.model->interfaces.push_back(read_type5(c, block));
-    } else if (same_word(block.word(1), "TYPE7")) {
-      c.model->interfaces.push_back(read_type7(c, block));
-    } else {
-      refused["/INTER/" + std::string(block.word(1))].emplace_back(block.word(2));
-    }
+    if (is_keyword(block, "INTER", "TYPE3")) c.model->interfaces.push_back(read_type3(c, block));
+    if (is_keyword(block, "INTER", "TYPE5")) c.model->interfaces.push_back(read_type5(c, block));
+    if (is_keyword(block, "INTER", "TYPE7")) c.model->interfaces.push_back(read_type7(c, block));
   }
-  if (!refused.empty()) {
-    std::string list;
-    for (const auto& [kind, ids] : refused) list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", kind, fmt::join(ids, ", "));
-    Place place;
-    place.file = c.deck->files.empty() ? std::string{} : c.deck->files.front();
-    c.diagnostics->error("model.unsupported", place,
-                         "these interfaces are not supported, and without them the result would be wrong: " + list +
-                             "; use /INTER/TYPE3, TYPE5 or TYPE7");
-  }
-  sort_by_id(c, c.model->interfaces, "/INTER", false);
+  order_by_id(c, c.model->interfaces, "INTER", false);
   fill_table(c.tables.interfaces, c.model->interfaces);
   orient(c);
 }

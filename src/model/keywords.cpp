@@ -53,7 +53,7 @@ constexpr std::array rules{
     Rule{"MAT", "VOID"}, Rule{"MAT", "LAW0"}, Rule{"MAT", "LAW00"}, Rule{"MAT", "ELAST"}, Rule{"MAT", "LAW1"}, Rule{"MAT", "LAW01"},
     Rule{"MAT", "PLAS_JOHNS"}, Rule{"MAT", "LAW2"}, Rule{"MAT", "LAW02"}, Rule{"MAT", "", refused, law_reason},
     Rule{"FUNCT", ""}, Rule{"MOVE_FUNCT", ""}, Rule{"SKEW", ""},
-    // A function, frame, line or group of these kinds does nothing by itself: who refers to it reports that it is missing.
+    // A function, frame, line, sensor or group of these kinds does nothing by itself: who refers to it reports that it is missing.
     Rule{"FUNCT_PYTHON", "", harmless}, Rule{"FUNCT_SMOOTH", "", harmless}, Rule{"TABLE", "", harmless}, Rule{"FRAME", "", harmless},
     Rule{"LINE", "", harmless}, Rule{"GRQUAD", "", harmless}, Rule{"GRTRIA", "", harmless}, Rule{"GRTRUS", "", harmless},
     Rule{"GRBEAM", "", harmless}, Rule{"GRSPRI", "", harmless},
@@ -62,21 +62,20 @@ constexpr std::array rules{
     Rule{"SET", ""},
     // conditions
     Rule{"BCS", "LAGMUL", refused, "conditions by Lagrange multipliers are not supported: use /BCS"}, Rule{"BCS", ""},
-    Rule{"INIVEL", "TRA"}, Rule{"INIVEL", "ROT"}, Rule{"INIVEL", "T+G"}, Rule{"INIVEL", "AXIS"}, Rule{"INIVEL", "GRID", harmless},
-    Rule{"INIVEL", "FVM", harmless}, Rule{"INIVEL", "", refused, "initial velocities of types TRA, ROT, T+G and AXIS are supported"},
+    Rule{"INIVEL", "TRA"}, Rule{"INIVEL", "ROT"}, Rule{"INIVEL", "T+G"}, Rule{"INIVEL", "AXIS"}, Rule{"INIVEL", "NODE"}, Rule{"INIVEL", "GRID", harmless},
+    Rule{"INIVEL", "FVM", harmless}, Rule{"INIVEL", "", refused, "initial velocities of types TRA, ROT, T+G, AXIS and NODE are supported"},
     Rule{"IMPVEL", "FGEO", refused, unknown_reason}, Rule{"IMPVEL", "LAGMUL", refused, unknown_reason}, Rule{"IMPVEL", ""},
     Rule{"IMPDISP", "FGEO", refused, unknown_reason}, Rule{"IMPDISP", ""}, Rule{"IMPACC", ""}, Rule{"CLOAD", ""}, Rule{"PLOAD", ""},
     Rule{"GRAV", ""}, Rule{"ADMAS", ""}, Rule{"RBODY", "LAGMUL", refused, unknown_reason}, Rule{"RBODY", ""}, Rule{"RWALL", "PLANE"},
     Rule{"RWALL", "", refused, "rigid walls of type PLANE are supported"}, Rule{"SENSOR", "TIME"},
-    Rule{"SENSOR", "", refused, "sensors of type TIME are supported"}, Rule{"ACTIV", "", refused, "elements cannot be switched on and off by sensors"},
+    Rule{"SENSOR", "", harmless}, Rule{"ACTIV", "", refused, "elements cannot be switched on and off by sensors"},
     Rule{"DAMP", "", refused, "Rayleigh damping is not supported"},
     Rule{"ALE", "BCS", harmless}, Rule{"ALE", "", refused, outside_reason},
     // interfaces
     Rule{"INTER", "TYPE3"}, Rule{"INTER", "TYPE5"}, Rule{"INTER", "TYPE7"}, Rule{"INTER", "", refused, interface_reason},
     // outputs
-    Rule{"TH", ""}, Rule{"SECT", ""}, Rule{"ACCEL", ""}, Rule{"ATH", "", harmless}, Rule{"BTH", "", harmless}, Rule{"CTH", "", harmless},
-    Rule{"DTH", "", harmless}, Rule{"ETH", "", harmless}, Rule{"FTH", "", harmless}, Rule{"GTH", "", harmless}, Rule{"HTH", "", harmless},
-    Rule{"ITH", "", harmless}, Rule{"THPART", "", harmless}, Rule{"GAUGE", "", harmless}, Rule{"STATE", "", harmless},
+    Rule{"TH", ""}, Rule{"SECT", ""}, Rule{"ACCEL", ""}, Rule{"ATH", ""}, Rule{"BTH", ""}, Rule{"CTH", ""}, Rule{"DTH", ""}, Rule{"ETH", ""},
+    Rule{"FTH", ""}, Rule{"GTH", ""}, Rule{"HTH", ""}, Rule{"ITH", ""}, Rule{"THPART", "", harmless}, Rule{"GAUGE", "", harmless}, Rule{"STATE", "", harmless},
     Rule{"OUTP", "", harmless}, Rule{"H3D", "", harmless}, Rule{"ANIM", "", harmless},
     // known to be out of reach
     Rule{"/SUBMODEL", "", refused, "sub-models shift ids and units: write the model as one deck"}, Rule{"/ENDSUB", "", harmless},
@@ -104,6 +103,8 @@ std::string spelling(const deck::Block& b) {
 }
 
 }  // namespace
+
+bool is_refused(const deck::Block& block) { return rule_for(block).treatment == refused; }
 
 void check_keywords(Context& c) {
   struct Refusal {

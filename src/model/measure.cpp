@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "model/topology.hpp"
+
 namespace abut::model {
 
 namespace {
@@ -59,11 +61,7 @@ double brick_volume(const Model& m, Index brick) {
   const auto& n = m.bricks.nodes[static_cast<std::size_t>(brick)];
   std::array<Vec3, 8> x;
   for (std::size_t i = 0; i < 8; ++i) x[i] = position(m, n[i]);
-  // Flanagan, Belytschko 1981: V = 8 det J at the centre.
-  const Vec3 r = (x[1] + x[2] + x[5] + x[6]) - (x[0] + x[3] + x[4] + x[7]);
-  const Vec3 s = (x[2] + x[3] + x[6] + x[7]) - (x[0] + x[1] + x[4] + x[5]);
-  const Vec3 t = (x[4] + x[5] + x[6] + x[7]) - (x[0] + x[1] + x[2] + x[3]);
-  return dot(r, cross(s, t)) / 64.0;
+  return one_point_volume(x);
 }
 
 double brick_mass(const Model& m, Index brick) {
@@ -72,8 +70,7 @@ double brick_mass(const Model& m, Index brick) {
 
 double tetra_volume(const Model& m, Index tetra) {
   const auto& n = m.tetras.nodes[static_cast<std::size_t>(tetra)];
-  const Vec3 x1 = position(m, n[0]);
-  return dot(cross(position(m, n[1]) - x1, position(m, n[2]) - x1), x1 - position(m, n[3])) / 6.0;
+  return tetra_volume(std::array{position(m, n[0]), position(m, n[1]), position(m, n[2]), position(m, n[3])});
 }
 
 double tetra_mass(const Model& m, Index tetra) {

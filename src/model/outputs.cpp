@@ -230,7 +230,7 @@ void read_outputs(Context& c) {
     if (is_keyword(block, "SECT")) read_section(c, block);
     if (is_keyword(block, "ACCEL")) read_accelerometer(c, block, accelerometers);
   }
-  sort_by_id(c, c.model->sections, "/SECT", false);
+  order_by_id(c, c.model->sections, "SECT", false);
   fill_table(c.tables.sections, c.model->sections);
   HistoryReader histories(c, accelerometers);
   for (const deck::Block& block : c.deck->blocks) {

@@ -118,6 +118,7 @@ void read_interfaces(Context& c);    ///< /INTER
 void read_outputs(Context& c);       ///< /TH, /SECT, /ACCEL
 void read_engine(Context& c, const deck::Deck& engine);  ///< Engine deck -> Model::controls
 void check_keywords(Context& c);     ///< keywords nobody took: refused when they can change physics, else listed as skipped
+[[nodiscard]] bool is_refused(const deck::Block& block);  ///< check_keywords refuses this block: readers pass over it
 void validate(Context& c);           ///< what can only be judged with everything read (shared nodes, zero areas, masses ...)
 
 }  // namespace abut::model

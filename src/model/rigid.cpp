@@ -23,7 +23,6 @@ Vec3 read_reals(BlockReader& r, std::array<std::string_view, 3> names, Dimension
 }  // namespace
 
 void read_rigid_body(Context& c, const deck::Block& block) {
-  if (!is_id(block.word(1))) return refuse(c, block, "this form of rigid body is not supported; write /RBODY/id");
   BlockReader r(c, block, 1, true);
   RigidBody b;
   b.id = r.id();
@@ -67,9 +66,6 @@ void read_rigid_body(Context& c, const deck::Block& block) {
 }
 
 void read_rigid_wall(Context& c, const deck::Block& block) {
-  if (!same_word(block.word(1), "PLANE")) {
-    return refuse(c, block, fmt::format("a rigid wall of kind '{}' is not supported; use /RWALL/PLANE", block.word(1)));
-  }
   BlockReader r(c, block, 2, true);
   RigidWall w;
   w.id = r.id();

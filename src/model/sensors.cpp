@@ -18,7 +18,7 @@ void read_sensors(Context& c) {
     if (s.t_off <= s.t_on) r.error("model.out_of_range", {1, 20}, "Tstop", "Tstop must be later than Tdelay, or 0 for never");
     sensors.push_back(s);
   }
-  sort_by_id(c, sensors, "/SENSOR/TIME", false);
+  order_by_id(c, sensors, "SENSOR", false);
   fill_table(c.tables.sensors, sensors);
 }
 

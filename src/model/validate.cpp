@@ -41,15 +41,7 @@ class Validator {
   }
 
  private:
-  Place place(std::string_view keyword, Id id) const {
-    Place p;
-    p.keyword = fmt::format("{}/{}", keyword, id);
-    for (const deck::Block& block : c_.deck->blocks) {
-      const std::string_view last = block.word(1);
-      if (same_word(block.word(0), keyword.substr(1)) && deck::parse_integer(last) == id) return c_.deck->place(block);
-    }
-    return p;
-  }
+  Place place(std::string_view word, Id id) const { return place_of(c_, word, id); }
 
   Id id_of(Index node) const { return m_.node_id[static_cast<std::size_t>(node)]; }
 
@@ -73,7 +65,7 @@ class Validator {
     check(m_.shells);
     check(m_.sh3ns);
     for (const auto& [part, ids] : thin) {
-      d_.error("model.no_thickness", place("/PART", m_.parts[static_cast<std::size_t>(part)].id),
+      d_.error("model.no_thickness", place("PART", m_.parts[static_cast<std::size_t>(part)].id),
                fmt::format("{} no thickness: {}; give one greater than 0 in the property or with the element",
                            ids.size() == 1 ? "1 shell has" : fmt::format("{} shells have", ids.size()), list(ids)));
     }
@@ -231,20 +223,20 @@ class Validator {
         if (!inserted && found->second != b.id) shared[found->second].push_back(n);
       }
       for (const auto& [other, nodes] : shared) {
-        d_.error("model.shared_node", place("/RBODY", b.id),
+        d_.error("model.shared_node", place("RBODY", b.id),
                  fmt::format("{} also to rigid body {}: {}; a node can follow one body only",
                              nodes.size() == 1 ? "1 node belongs" : fmt::format("{} nodes belong", nodes.size()), other, list(ids_of(nodes))));
       }
       double mass = b.mass;
       for (const Index n : all) mass += mass_[static_cast<std::size_t>(n)];
       if (!all.empty() && mass <= 0.0) {
-        d_.error("model.no_mass", place("/RBODY", b.id), "the rigid body has no mass; give one in the field Mass, or hold nodes of elements that have mass");
+        d_.error("model.no_mass", place("RBODY", b.id), "the rigid body has no mass; give one in the field Mass, or hold nodes of elements that have mass");
       }
     }
   }
 
   static std::string_view name_of(ImposedMotion::Kind kind) {
-    return kind == ImposedMotion::Kind::velocity ? "/IMPVEL" : kind == ImposedMotion::Kind::displacement ? "/IMPDISP" : "/IMPACC";
+    return kind == ImposedMotion::Kind::velocity ? "IMPVEL" : kind == ImposedMotion::Kind::displacement ? "IMPDISP" : "IMPACC";
   }
 
   void motions() {
@@ -274,7 +266,7 @@ class Validator {
       }
       if (other != nullptr) {
         d_.warning("model.motion_twice", place(name, motion.id),
-                   fmt::format("{}/{} imposes the same direction at the same time on {}: {}; the last one counts, keep one of them", name_of(other->kind),
+                   fmt::format("/{}/{} imposes the same direction at the same time on {}: {}; the last one counts, keep one of them", name_of(other->kind),
                                other->id, plural(twice.size(), "node", "nodes"), list(ids_of(twice))));
       }
     }
@@ -293,14 +285,14 @@ class Validator {
                            massless.size() == 1 ? "1 node is" : fmt::format("each of {} nodes is", massless.size()), list(ids_of(massless))));
     };
     for (const ConcentratedLoad& l : m_.concentrated_loads) {
-      if (l.direction < 3) check("/CLOAD", l.id, l.nodes);
+      if (l.direction < 3) check("CLOAD", l.id, l.nodes);
     }
     for (const PressureLoad& l : m_.pressure_loads) {
       std::vector<Index> nodes;
       for (const auto& segment : l.segments) nodes.insert(nodes.end(), segment.begin(), segment.end());
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      check("/PLOAD", l.id, nodes);
+      check("PLOAD", l.id, nodes);
     }
   }
 

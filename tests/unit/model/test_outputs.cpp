@@ -1,0 +1,110 @@
+// Requests of a deck for time history and sections (deck-format.md F).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "model/th_variables.hpp"
+#include "unit/model/deck_text.hpp"
+
+namespace abut::model {
+namespace {
+
+using testing::base_starter;
+using testing::build_changed;
+using testing::build_text;
+using testing::Built;
+using testing::integers;
+using testing::reals;
+using testing::with_line;
+
+const ThRequest* find(const Model& m, ThKind kind, Id id) {
+  const auto found = std::find_if(m.th_requests.begin(), m.th_requests.end(), [&](const ThRequest& r) { return r.kind == kind && r.id == id; });
+  return found == m.th_requests.end() ? nullptr : &*found;
+}
+
+TEST(Outputs, DefIsExpandedInTheOrderOfTheTable) {
+  const Built b = build_text(base_starter);
+  const ThRequest* inter = find(b.model, ThKind::inter, 1);
+  ASSERT_NE(inter, nullptr);
+  EXPECT_EQ(inter->variables, (std::vector<std::string>{"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ"}));
+  EXPECT_EQ(inter->index, 0);
+  EXPECT_EQ(inter->name, "block to block");
+  const ThRequest* node = find(b.model, ThKind::node, 13);
+  ASSERT_NE(node, nullptr);
+  EXPECT_EQ(node->variables, (std::vector<std::string>{"DX", "DY", "DZ", "VX", "VY", "VZ"}));
+  EXPECT_EQ(node->name, "corner");
+  EXPECT_EQ(b.model.th_requests.size(), 7u);
+}
+
+TEST(Outputs, BlankListOfNamesAsksForDef) {
+  const Built b = build_changed("/TH/INTER/1", 2, "");
+  ASSERT_FALSE(b.diagnostics.has_errors());
+  ASSERT_NE(find(b.model, ThKind::inter, 2), nullptr);
+  EXPECT_EQ(find(b.model, ThKind::inter, 2)->variables.size(), 6u);
+}
+
+TEST(Outputs, NamesMayTakeSeveralLinesAndRepeat) {
+  const Built b = build_changed("/TH/NODE/3", 2, "XYZ       A         DX\nREACZ     DX");
+  ASSERT_EQ(b.messages(), std::vector<std::string>{});
+  EXPECT_EQ(find(b.model, ThKind::node, 13)->variables, (std::vector<std::string>{"DX", "AX", "AY", "AZ", "X", "Y", "Z", "REACZ"}));
+}
+
+TEST(Outputs, TwoGroupsOfOneObjectAreOneRequest) {
+  const Built b = build_text(with_line(base_starter, "/TH/PART/2", 0, "/ATH/PART/7\nmore\nMASS      PW\n" + integers({"2"}) + "\n/TH/PART/2"));
+  ASSERT_EQ(b.messages(), std::vector<std::string>{});
+  EXPECT_EQ(find(b.model, ThKind::part, 2)->variables.back(), "PW");
+  EXPECT_EQ(find(b.model, ThKind::part, 2)->variables.size(), 10u);
+  EXPECT_EQ(find(b.model, ThKind::part, 1)->variables.size(), 9u);
+}
+
+TEST(Outputs, ElementsWallsBodiesAndAccelerometers) {
+  const Built b = build_text(with_line(base_starter, "/TH/PART/2", 0,
+                                       "/TH/SHELL/11\nshells\nSTRESS    THIC\n" + integers({"3", "0"}) + "plate\n/TH/BRICK/12\nbricks\nSTRESS\n" + integers({"2"}) +
+                                           "\n/TH/RWALL/13\nwall\nFN\n" + integers({"1"}) + "\n/TH/RBODY/14\nbody\nF         V\n" + integers({"1"}) +
+                                           "\n/ACCEL/5\nsensor\n" + integers({"13", "1"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n/TH/PART/2"));
+  ASSERT_EQ(b.messages(), std::vector<std::string>{});
+  EXPECT_EQ(find(b.model, ThKind::shell, 3)->variables, (std::vector<std::string>{"F1", "F2", "F12", "Q1", "Q2", "M1", "M2", "M12", "THIC"}));
+  EXPECT_EQ(find(b.model, ThKind::brick, 2)->index, 1);
+  EXPECT_EQ(find(b.model, ThKind::rwall, 1)->variables, (std::vector<std::string>{"FNX", "FNY", "FNZ"}));
+  EXPECT_EQ(find(b.model, ThKind::rbody, 1)->variables.size(), 9u);
+  const ThRequest* acc = find(b.model, ThKind::accelerometer, 5);
+  ASSERT_NE(acc, nullptr);
+  EXPECT_EQ(b.model.node_id[static_cast<std::size_t>(acc->index)], 13);
+  EXPECT_EQ(acc->skew, 0);
+}
+
+TEST(Outputs, SectionTakesGroupsFrameAndInterfaces) {
+  const Built b = build_text(with_line(base_starter, "/TH/PART/2", 0,
+                                       "/GRSHEL/SHEL/8\nplate\n" + integers({"3"}) + "\n/GRBRIC/BRIC/9\nblock\n" + integers({"2"}) + "\n/SECT/4\ncut\n" +
+                                           integers({"9", "10", "12", "3", "0", "0"}) + reals({"0", "0"}) + "\n\n" + integers({"9", "", "8", "0", "0", "0", "0", "2", "", "11"}) + "\n" +
+                                           integers({"1", "3"}) + "\n/TH/SECTIO/16\nforces\nDEF\n" + integers({"4"}) + "\n/TH/PART/2"));
+  ASSERT_EQ(b.messages(), std::vector<std::string>{});
+  const Section& s = b.model.sections.at(0);
+  EXPECT_EQ(s.nodes.size(), 4u);
+  EXPECT_EQ(s.shells, std::vector<Index>{0});
+  EXPECT_EQ(s.bricks, std::vector<Index>{1});
+  EXPECT_EQ(s.interfaces, (std::vector<Index>{0, 2}));
+  EXPECT_EQ(s.iframe, 11);
+  EXPECT_EQ(b.model.node_id[static_cast<std::size_t>(s.frame_nodes[2])], 12);
+  EXPECT_EQ(find(b.model, ThKind::section, 4)->variables.size(), 9u);
+}
+
+TEST(Outputs, EveryGroupOfEveryKindExpandsToVariablesOfItsTable) {
+  for (const ThKind kind : {ThKind::node, ThKind::part, ThKind::shell, ThKind::sh3n, ThKind::brick, ThKind::inter, ThKind::rwall, ThKind::rbody, ThKind::section,
+                            ThKind::accelerometer}) {
+    const std::vector<std::string>& all = th_variables(kind);
+    for (const char* group : {"DEF", "D", "V", "A", "VR", "AR", "XYZ", "STRESS", "STRAIN", "PLAS", "SIG_3", "LOCSTRS", "FN", "FT", "|FN|", "|F|", "F", "M", "R", "FI",
+                              "MI", "CENTER", "GLOBAL", "LOCAL", "W"}) {
+      for (const std::string& name : th_expand(kind, group)) EXPECT_NE(std::find(all.begin(), all.end(), name), all.end()) << th_word(kind) << " " << group << " " << name;
+    }
+    EXPECT_FALSE(th_expand(kind, "def").empty());
+    EXPECT_TRUE(th_expand(kind, "NOTHING").empty());
+    EXPECT_EQ(th_kind(th_word(kind)), kind);
+  }
+  EXPECT_EQ(th_kind("MONV"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace abut::model
