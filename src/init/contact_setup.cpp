@@ -77,6 +77,57 @@ contact::Options make_options(const model::Interface& card, const Profile& profi
   return o;
 }
 
+/// Thickness behind a segment for gaps: virtual thickness of the part, else the element's, else the property's; 0 for solids.
+double gap_thickness(const model::Model& model, const ElementRef& e) {
+  if (e.kind != ElementKind::shell4 && e.kind != ElementKind::shell3) return 0.0;
+  const model::Part& part = model.parts[static_cast<std::size_t>(part_of(model, e))];
+  if (part.contact_thickness > 0.0) return part.contact_thickness;
+  const auto& own = e.kind == ElementKind::shell4 ? model.shells.thickness : model.sh3ns.thickness;
+  const auto i = static_cast<std::size_t>(e.index);
+  if (i < own.size() && own[i] > 0.0) return own[i];
+  return property_thickness(model.properties[static_cast<std::size_t>(part.property)]);
+}
+
+/// Default gap of TYPE7 (numerics.md 7.7.1, Igap 0): the smaller of the mean shell thickness and half of the shortest side;
+/// a tenth of the shortest side on solids.
+double default_gap(const model::Model& model, const model::Surface& surface, std::span<const Vec3> x) {
+  double side = 1e30;
+  double thickness = 0.0;
+  int shells = 0;
+  for (const model::Segment& s : surface.segments) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double length = norm(x[static_cast<std::size_t>(s.nodes[(k + 1) % 4])] - x[static_cast<std::size_t>(s.nodes[k])]);
+      if (length > 0.0) side = std::min(side, length);
+    }
+    const double t = gap_thickness(model, s.element);
+    if (t > 0.0) {
+      thickness += t;
+      ++shells;
+    }
+  }
+  return shells > 0 ? std::min(thickness / shells, 0.5 * side) : 0.1 * side;
+}
+
+contact::BothSidesOptions both_sides_options(const model::Model& model, const model::Interface& card, const model::InterfaceType7& t7,
+                                             const model::Surface& surface, std::span<const Vec3> x) {
+  using Options = contact::BothSidesOptions;
+  Options o;
+  o.gap = t7.gap_given ? card.gap : default_gap(model, surface, x);
+  o.friction = card.friction;
+  o.friction_form = t7.iform == 2 ? Options::Friction::incremental : Options::Friction::viscous;
+  o.damping = t7.vis_s;
+  o.friction_viscosity = t7.iform == 2 || card.friction == 0.0 ? 0.0 : t7.vis_f;
+  o.initial = t7.inacti == 5 ? Options::Initial::offset : (t7.inacti == 6 ? Options::Initial::offset_with_margin : Options::Initial::keep);
+  o.largest_penetration = t7.pen_max;
+  o.birth = card.t_start;
+  o.death = card.t_stop;
+  const model::Controls& control = model.controls;
+  o.step_minimum = t7.dt_min;
+  if (o.step_minimum == 0.0 && control.contact_action == model::StepControl::Action::remove) o.step_minimum = control.contact_minimum;
+  o.step_scale = control.contact_scale;
+  return o;
+}
+
 using FaceKey = std::array<Index, 4>;
 
 FaceKey face_key(std::array<Index, 4> n) {
@@ -233,6 +284,15 @@ std::vector<RunInterface> make_interfaces(const model::Model& model, const Profi
                      contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(model, main),
                                                           options),
                      {{}, make_side(model, main, own, x)}};
+      r.contact.set_surface(1, {r.sides[1].stiffness, {}, r.sides[1].active});
+      out.push_back(std::move(r));
+    } else if (const auto* t7 = std::get_if<model::InterfaceType7>(&card.type)) {
+      const model::Surface& main = model.surfaces[static_cast<std::size_t>(t7->surface)];
+      RunInterface r{static_cast<Index>(i),
+                     contact::Interface::both_sides(t7->nodes, make_surface(model, main), both_sides_options(model, card, *t7, main, x)),
+                     {{}, make_side(model, main, own, x)}};
+      // Istf 1: the card's value is K0 itself, which the law takes as half of K.
+      for (double& k : r.sides[1].stiffness) k = t7->istf == 1 ? 2.0 * card.stfac : card.stfac * k;
       r.contact.set_surface(1, {r.sides[1].stiffness, {}, r.sides[1].active});
       out.push_back(std::move(r));
     }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/both_sides.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/contact/surface.hpp"
 #include "abut/types.hpp"
@@ -50,6 +51,10 @@ class Interface {
   /// facet's stiffness is taken. Their order is the order of sums: sort them by key.
   static Interface nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface,
                                     const Options& options);
+
+  /// TYPE7: every node-facet pair within the gap repels, on both sides. The surface is side 1.
+  /// @throws std::invalid_argument without a gap or with arrays of a wrong length
+  static Interface both_sides(std::vector<Index> nodes, Surface surface, const BothSidesOptions& options);
 
   ~Interface();
   Interface(Interface&&) noexcept;

@@ -1,5 +1,6 @@
 #include "abut/contact/interface.hpp"
 
+#include "contact/enforce/both_sides.hpp"
 #include "contact/enforce/one_sided.hpp"
 
 namespace abut::contact {
@@ -15,6 +16,10 @@ Interface Interface::two_surfaces(Surface first, Surface second, const Options& 
 
 Interface Interface::nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options) {
   return Interface(std::make_unique<OneSided>(std::move(nodes), std::move(node_stiffness), std::move(surface), options));
+}
+
+Interface Interface::both_sides(std::vector<Index> nodes, Surface surface, const BothSidesOptions& options) {
+  return Interface(std::make_unique<BothSides>(std::move(nodes), std::move(surface), options));
 }
 
 void Interface::set_surface(int side, const SurfaceState& state) { model_->set_surface(side, state); }

@@ -29,6 +29,8 @@ class Side {
   [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }
   [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
   [[nodiscard]] Index facet_count() const { return surface_.facet_count(); }
+  /// Position of facet f in the host's list.
+  [[nodiscard]] Index listed(Index f) const { return listed_[at(f)]; }
   [[nodiscard]] bool active(Index f) const { return active_[at(f)] != 0; }
   /// False when all facets around the node are eroded.
   [[nodiscard]] bool node_active(Index s) const { return node_active_[at(s)] != 0; }
