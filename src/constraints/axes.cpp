@@ -34,8 +34,6 @@ void Axes::update(const state::State& state) {
   }
 }
 
-const Frame& Axes::frame(Index skew) const {
-  return skew == no_index ? global_axes : frames_[static_cast<std::size_t>(skew)];
-}
+const Frame& Axes::frame(Index skew) const { return skew == no_index ? global_axes : frames_[static_cast<std::size_t>(skew)]; }
 
 }  // namespace abut::constraints

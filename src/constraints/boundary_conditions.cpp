@@ -34,9 +34,8 @@ BoundaryConditions::BoundaryConditions(const model::Model& model, const Axes& ax
     for (unsigned k = 0; k < 3; ++k) bits |= (card.translation[k] ? 1U << k : 0U) | (card.rotation[k] ? 8U << k : 0U);
     for (const Index node : card.nodes) all.push_back({node, card.skew, static_cast<std::uint8_t>(bits)});
   }
-  std::stable_sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) {
-    return a.node != b.node ? a.node < b.node : a.skew < b.skew;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Entry& a, const Entry& b) { return a.node != b.node ? a.node < b.node : a.skew < b.skew; });
   for (const Entry& entry : all) {
     if (!entries_.empty() && entries_.back().node == entry.node && entries_.back().skew == entry.skew) {
       entries_.back().bits = static_cast<std::uint8_t>(entries_.back().bits | entry.bits);

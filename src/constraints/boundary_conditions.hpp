@@ -46,7 +46,10 @@ class BoundaryConditions {
   double ledger_work(const state::State& state) { return meter_.settle(state); }
 
  private:
-  struct Entry { Index node, skew; std::uint8_t bits; };  ///< bit k: direction k of 0..5
+  struct Entry {
+    Index node, skew;
+    std::uint8_t bits;
+  };  ///< bit k: direction k of 0..5
   [[nodiscard]] std::uint8_t held_bits(const Entry& entry) const {
     return static_cast<std::uint8_t>(entry.bits & ~released_[static_cast<std::size_t>(entry.node)]);
   }
@@ -54,10 +57,10 @@ class BoundaryConditions {
   const Axes* axes_;
   const RigidBodies* bodies_;
   bool secondary_too_;
-  std::vector<Entry> entries_;             ///< sorted by node, then skew
-  std::vector<Index> first_;               ///< #N + 1: entries of node i are [first_[i], first_[i + 1])
-  std::vector<Index> nodes_;               ///< nodes with an entry
-  std::vector<std::uint8_t> released_;     ///< #N
+  std::vector<Entry> entries_;          ///< sorted by node, then skew
+  std::vector<Index> first_;            ///< #N + 1: entries of node i are [first_[i], first_[i + 1])
+  std::vector<Index> nodes_;            ///< nodes with an entry
+  std::vector<std::uint8_t> released_;  ///< #N
   WorkMeter meter_;
 };
 

@@ -50,9 +50,7 @@ void ImposedMotions::apply(state::State& state) {
     const double v = dot(rotation ? state.w[i] : state.v[i], axis);
     const double free = dot(acceleration, axis);
     if (dof.active) {
-      const auto curve = [&](double at) {
-        return curves_->scaled(motion.function, motion.sensor, motion.scale_x, motion.scale_y, at);
-      };
+      const auto curve = [&](double at) { return curves_->scaled(motion.function, motion.sensor, motion.scale_x, motion.scale_y, at); };
       double imposed = 0.0;
       if (motion.kind == Kind::acceleration) {
         imposed = curve(t + h);
@@ -67,7 +65,9 @@ void ImposedMotions::apply(state::State& state) {
       const double change = imposed - free;
       acceleration += change * axis;
       const Index body = rotation ? bodies_->main_of(dof.node) : no_index;
-      const double resistance = !rotation ? state.mass[i] : body == no_index ? state.inertia[i] : dot(axis, bodies_->times_inertia(body, axis));
+      const double resistance = !rotation          ? state.mass[i]
+                                : body == no_index ? state.inertia[i]
+                                                   : dot(axis, bodies_->times_inertia(body, axis));
       dof.power = 0.5 * resistance * change * (v + 0.5 * hb * imposed);
       reaction_[m] += resistance * change;
     }

@@ -43,9 +43,9 @@ class ImposedMotions {
  private:
   struct Dof {
     Index motion, node;
-    double angle = 0.0;       ///< accumulated rotation (rotational displacement only)
-    double power = 0.0;       ///< m (a - a_free) (v + h_bar a / 2) / 2 of this cycle
-    double old_power = 0.0;   ///< of the previous cycle
+    double angle = 0.0;      ///< accumulated rotation (rotational displacement only)
+    double power = 0.0;      ///< m (a - a_free) (v + h_bar a / 2) / 2 of this cycle
+    double old_power = 0.0;  ///< of the previous cycle
     bool active = false;
   };
   const model::Model* model_;

@@ -299,7 +299,8 @@ void RigidBodies::scatter(state::State& state) {
     const Vec3 v = state.v[main] + hb * state.a[main];
     const Vec3 angle = h * w;
     if (squared_norm(angle) > 1.0) {
-      throw RunError("rigid body " + std::to_string(card.id) + " turns by more than one radian in one step: its inertia or the time step is wrong");
+      throw RunError("rigid body " + std::to_string(card.id) +
+                     " turns by more than one radian in one step: its inertia or the time step is wrong");
     }
     const bool small_body = card.nodes.size() <= 2;
     for (const Index node : card.nodes) {

@@ -18,7 +18,9 @@ class BoundaryConditions;
 
 /// Sums of one body: force and moment about the main node of the secondary nodes (without the main node's own), this cycle
 /// and integrated over time (times h_-); rotation: integral of the main node's angular velocity.
-struct BodySums { Vec3 force_impulse, moment_impulse, force, moment, rotation; };
+struct BodySums {
+  Vec3 force_impulse, moment_impulse, force, moment, rotation;
+};
 
 /// What nodal sums (1/2 m v^2, ...) over all nodes need to become those of the structure, because the mass of secondary nodes
 /// also sits in the main node: add these.
@@ -67,7 +69,11 @@ class RigidBodies {
 
   [[nodiscard]] std::span<const BodySums> results() const { return sums_; }  ///< per model rigid body
   /// Mass, principal inertias and axes of an active body.
-  struct Inertia { double mass = 0.0; std::array<double, 3> principal{}; Frame axes{}; };
+  struct Inertia {
+    double mass = 0.0;
+    std::array<double, 3> principal{};
+    Frame axes{};
+  };
   [[nodiscard]] const Inertia& inertia(Index body) const { return bodies_[static_cast<std::size_t>(body)].inertia; }
   /// J b, J the body's inertia tensor at t^n.
   [[nodiscard]] Vec3 times_inertia(Index body, const Vec3& b) const;
@@ -81,11 +87,11 @@ class RigidBodies {
     bool on = false;
     Inertia inertia;
     double own_mass = 0.0, own_inertia = 0.0;  ///< of the main node alone
-    Vec3 own_moment;               ///< moment on the main node alone, this cycle
-    Vec3 entry_w;                  ///< angular velocity of the main node at gather
-    Vec3 euler_alpha;              ///< angular acceleration that gather put into the moment
-    double rotation_before = 0.0;  ///< rotational T* of the previous cycle plus its second halves, or 1/2 w.Jw when switched on
-    double switch_work = 0.0;      ///< kinetic energy gained (negative: lost) when the body was switched on or off
+    Vec3 own_moment;                           ///< moment on the main node alone, this cycle
+    Vec3 entry_w;                              ///< angular velocity of the main node at gather
+    Vec3 euler_alpha;                          ///< angular acceleration that gather put into the moment
+    double rotation_before = 0.0;              ///< rotational T* of the previous cycle plus its second halves, or 1/2 w.Jw when switched on
+    double switch_work = 0.0;                  ///< kinetic energy gained (negative: lost) when the body was switched on or off
   };
   void follow_sensors(state::State& state);
   void switch_on(std::size_t index, state::State& state, bool at_start);

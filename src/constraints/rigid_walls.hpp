@@ -17,7 +17,9 @@ class RigidBodies;
 
 /// What a wall received from the structure. Forces of this cycle (impulse / h_bar), impulses accumulated since t = 0;
 /// "normal" points against the wall's normal.
-struct WallSums { Vec3 normal_force, tangential_force, normal_impulse, tangential_impulse; };
+struct WallSums {
+  Vec3 normal_force, tangential_force, normal_impulse, tangential_impulse;
+};
 
 /// A moving wall is as heavy as its main node (the whole rigid body, if it is the main node of one). In the standard profile the
 /// impact is plastic and momentum is exchanged in the same cycle, along those directions in which the main node is neither held
@@ -50,11 +52,11 @@ class RigidWalls {
 
  private:
   struct Wall {
-    std::vector<Index> nodes;          ///< tested nodes, main excluded
-    std::vector<Vec3> filtered;        ///< friction filter: last tangential impulse per node
-    Vec3 reaction;                     ///< on the main node, of the previous cycle
-    double impacted_mass = 0.0;        ///< of the previous cycle
-    Index count = 0;                   ///< nodes in contact in this cycle
+    std::vector<Index> nodes;    ///< tested nodes, main excluded
+    std::vector<Vec3> filtered;  ///< friction filter: last tangential impulse per node
+    Vec3 reaction;               ///< on the main node, of the previous cycle
+    double impacted_mass = 0.0;  ///< of the previous cycle
+    Index count = 0;             ///< nodes in contact in this cycle
   };
   void apply_wall(std::size_t index, state::State& state);
   [[nodiscard]] Vec3 velocity_after_impact(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,

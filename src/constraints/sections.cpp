@@ -10,10 +10,14 @@ namespace {
 
 std::span<const Index> listed(const model::Section& section, model::ElementKind kind) {
   switch (kind) {
-    case model::ElementKind::shell4: return section.shells;
-    case model::ElementKind::shell3: return section.sh3ns;
-    case model::ElementKind::brick: return section.bricks;
-    default: return {};
+    case model::ElementKind::shell4:
+      return section.shells;
+    case model::ElementKind::shell3:
+      return section.sh3ns;
+    case model::ElementKind::brick:
+      return section.bricks;
+    default:
+      return {};
   }
 }
 
@@ -81,7 +85,8 @@ void Sections::gather(const state::State& state, std::span<const double> slots) 
     SectionSums& sums = sums_[i];
     sums.normal_force = dot(force, section.frame[2]) * section.frame[2];
     sums.tangential_force = force - sums.normal_force;
-    sums.moment = card.iframe >= 10 ? moment : Vec3{dot(moment, section.frame[0]), dot(moment, section.frame[1]), dot(moment, section.frame[2])};
+    sums.moment =
+        card.iframe >= 10 ? moment : Vec3{dot(moment, section.frame[0]), dot(moment, section.frame[1]), dot(moment, section.frame[2])};
     const double h = state.times.h_minus;
     sums.normal_impulse += h * sums.normal_force;
     sums.tangential_impulse += h * sums.tangential_force;

@@ -23,7 +23,10 @@
 namespace abut::constraints {
 
 /// normal and tangential force: global axes. moment: components along the section's axes (Iframe 0 to 3) or global (10 to 13).
-struct SectionSums { Vec3 normal_force, tangential_force, moment; Vec3 normal_impulse, tangential_impulse, moment_impulse; };
+struct SectionSums {
+  Vec3 normal_force, tangential_force, moment;
+  Vec3 normal_impulse, tangential_impulse, moment_impulse;
+};
 
 class Sections {
  public:
@@ -37,8 +40,15 @@ class Sections {
   [[nodiscard]] const Frame& frame(Index section) const { return sections_[static_cast<std::size_t>(section)].frame; }
 
  private:
-  struct Entry { Index node; std::size_t slot; bool moment; };  ///< one node of one element; component c at slot + 8 c
-  struct Section { std::vector<Entry> entries; Frame frame; };
+  struct Entry {
+    Index node;
+    std::size_t slot;
+    bool moment;
+  };  ///< one node of one element; component c at slot + 8 c
+  struct Section {
+    std::vector<Entry> entries;
+    Frame frame;
+  };
   const model::Model* model_;
   std::vector<Section> sections_;
   std::vector<SectionSums> sums_;

@@ -55,11 +55,13 @@ class WorkMeter {
   double settle(const state::State& state);
 
  private:
-  struct Kick { Vec3 v, w, a, alpha; };  ///< values at before()
+  struct Kick {
+    Vec3 v, w, a, alpha;
+  };  ///< values at before()
   std::vector<Index> nodes_;
   const RigidBodies* bodies_;
   std::vector<Kick> entry_;
-  std::vector<Vec3> da_, dalpha_;        ///< sum of the changes in this cycle
+  std::vector<Vec3> da_, dalpha_;  ///< sum of the changes in this cycle
   std::vector<std::pair<Index, Vec3>> forces_;
   double jump_ = 0.0, second_half_ = 0.0;
 };

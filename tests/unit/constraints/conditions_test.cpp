@@ -37,7 +37,8 @@ TEST(Axes, DegenerateMovingSkewKeepsItsAxes) {
 TEST(BoundaryConditions, HoldComponentsInASkewAndTakeTheirEnergy) {
   auto m = nodes_at({{0, 0, 0}});
   m.skews.push_back(tilted());
-  m.boundary_conditions.push_back({.id = 1, .translation = {false, true, false}, .rotation = {true, false, false}, .skew = 0, .nodes = {0}});
+  m.boundary_conditions.push_back(
+      {.id = 1, .translation = {false, true, false}, .rotation = {true, false, false}, .skew = 0, .nodes = {0}});
   m.concentrated_loads.push_back({.id = 1, .direction = 1, .scale_y = 2.0, .nodes = {0}});
   Rig rig(m, 1.0, 0.5);
   rig.s.v[0] = {1, 1, 1};
@@ -157,8 +158,13 @@ TEST(ImposedMotion, RotationReachesItsAngle) {
 
 TEST(ImposedMotion, AccelerationAndWindow) {
   auto m = nodes_at({{0, 0, 0}});
-  m.imposed_motions.push_back({.id = 1, .kind = model::ImposedMotion::Kind::acceleration, .direction = 2, .scale_y = 4.0,
-                               .t_start = 0.095, .t_stop = 0.195, .nodes = {0}});
+  m.imposed_motions.push_back({.id = 1,
+                               .kind = model::ImposedMotion::Kind::acceleration,
+                               .direction = 2,
+                               .scale_y = 4.0,
+                               .t_start = 0.095,
+                               .t_stop = 0.195,
+                               .nodes = {0}});
   Rig rig(m);
   rig.start();
   for (int n = 0; n < 10; ++n) rig.step(0.01);

@@ -132,8 +132,8 @@ TEST(Pressure, ResultantIsPressureTimesAreaAlongTheNormal) {
 // A closed surface feels no resultant force and no resultant moment; a hexahedron with warped faces.
 TEST(Pressure, ClosedSurfaceHasNoResultant) {
   auto m = nodes_at({{0, 0, 0}, {1.1, 0.1, 0}, {1, 1.2, 0.1}, {0, 1, -0.2}, {0, 0.1, 1}, {1, 0, 1.3}, {1.2, 1, 1}, {0.1, 1, 0.9}});
-  m.pressure_loads.push_back({.id = 1, .scale_y = 7.0,
-                              .segments = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}});
+  m.pressure_loads.push_back(
+      {.id = 1, .scale_y = 7.0, .segments = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}});
   Rig rig(m);
   rig.loads.apply(rig.s);
   Vec3 force{};

@@ -35,7 +35,8 @@ inline state::State state_of(const model::Model& model, double mass = 1.0, doubl
   state::State s;
   const std::size_t n = model.node_x.size();
   s.x = model.node_x;
-  for (auto* field : {&s.u, &s.v, &s.w, &s.a, &s.alpha, &s.f, &s.m, &s.f_internal, &s.m_internal, &s.f_external, &s.m_external, &s.f_contact}) {
+  for (auto* field :
+       {&s.u, &s.v, &s.w, &s.a, &s.alpha, &s.f, &s.m, &s.f_internal, &s.m_internal, &s.f_external, &s.m_external, &s.f_contact}) {
     field->assign(n, Vec3{});
   }
   s.mass.assign(n, mass);
@@ -58,14 +59,15 @@ struct Rig {
   Gravities gravities{model, curves, axes, bodies};
   ImposedMotions motions{model, curves, axes, bodies};
   RigidWalls walls{model, bodies, conditions, motions, profile};
-  std::function<void(state::State&)> forces = [](state::State&) {};  ///< sets f_contact (and m_internal, subtracted)
+  std::function<void(state::State&)> forces = [](state::State&) {};              ///< sets f_contact (and m_internal, subtracted)
   std::function<void(const state::State&)> output = [](const state::State&) {};  ///< step 26
   ForceWork force_work;
 
-  double external = 0.0;            ///< reference bookings of loads, gravity, imposed motion and walls
-  double baseline = 0.0;            ///< kinetic energy at the start
-  double kinetic = 0.0;             ///< T*_n of the last cycle
-  double work_loads = 0.0, work_gravity = 0.0, work_conditions = 0.0, work_motions = 0.0, work_walls = 0.0, work_bodies = 0.0, work_forces = 0.0;
+  double external = 0.0;  ///< reference bookings of loads, gravity, imposed motion and walls
+  double baseline = 0.0;  ///< kinetic energy at the start
+  double kinetic = 0.0;   ///< T*_n of the last cycle
+  double work_loads = 0.0, work_gravity = 0.0, work_conditions = 0.0, work_motions = 0.0, work_walls = 0.0, work_bodies = 0.0,
+         work_forces = 0.0;
 
   explicit Rig(model::Model m, double mass = 1.0, double inertia = 0.0, Profile p = {})
       : model(std::move(m)), profile(p), s(state_of(model, mass, inertia)) {}

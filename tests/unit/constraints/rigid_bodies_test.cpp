@@ -191,7 +191,10 @@ struct Gyroscope {
   std::array<double, 3> j;
   Frame axes;
   Vec3 w;  ///< body components
-  struct Rate { Vec3 w; Frame axes; };
+  struct Rate {
+    Vec3 w;
+    Frame axes;
+  };
   [[nodiscard]] Vec3 space(const Vec3& c) const { return c.x * axes[0] + c.y * axes[1] + c.z * axes[2]; }
   [[nodiscard]] Rate rate() const {
     const Vec3 dw{(j[1] - j[2]) * w.y * w.z / j[0], (j[2] - j[0]) * w.z * w.x / j[1], (j[0] - j[1]) * w.x * w.y / j[2]};
@@ -216,7 +219,8 @@ double precession_error(double h, Profile profile) {
   rig.s.w[0] = {0.4, 2.0, -0.3};
   rig.start();
   const auto& inertia = rig.bodies.inertia(0);
-  Gyroscope exact{inertia.principal, inertia.axes,
+  Gyroscope exact{inertia.principal,
+                  inertia.axes,
                   {dot(inertia.axes[0], rig.s.w[0]), dot(inertia.axes[1], rig.s.w[0]), dot(inertia.axes[2], rig.s.w[0])}};
   const Vec3 arm = rig.s.x[3] - rig.s.x[0];
   const Vec3 local{dot(exact.axes[0], arm), dot(exact.axes[1], arm), dot(exact.axes[2], arm)};

@@ -49,14 +49,16 @@ void set(std::vector<double>& slots, const elements::Group& g, Index e, int node
 /// A bar along z of two unit bricks under tension N: bottom nodes 0-3 at z = 0, 4-7 at z = 1, 8-11 at z = 2. The section cuts the
 /// lower brick at its bottom nodes: the element pulls them along +z.
 struct Bar {
-  model::Model m = nodes_at({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}});
+  model::Model m = nodes_at(
+      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}});
   std::vector<std::unique_ptr<elements::Group>> groups;
   std::vector<double> slots;
   state::State s;
 
   explicit Bar(int iframe) {
     groups.push_back(std::make_unique<FilledGroup>(model::ElementKind::brick, std::vector<Index>{0, 1},
-                                                   std::vector<std::vector<Index>>{{0, 1, 2, 3, 4, 5, 6, 7}, {4, 5, 6, 7, 8, 9, 10, 11}}, 4));
+                                                   std::vector<std::vector<Index>>{{0, 1, 2, 3, 4, 5, 6, 7}, {4, 5, 6, 7, 8, 9, 10, 11}},
+                                                   4));
     model::Section card;
     card.id = 1;
     card.frame_nodes = {0, 1, 3};
@@ -136,8 +138,8 @@ TEST(Section, TakesListedShellsWithTheirMoments) {
   Sections sections(m, groups);
   sections.gather(state_of(m), slots);
   const SectionSums& r = sections.results()[0];
-  EXPECT_EQ(r.tangential_force, (Vec3{26, 0, 0}));         // 2 nodes x (3 + 10), global axes without frame nodes
-  EXPECT_EQ(r.moment, (Vec3{0, 2 * 0.5 * 13, -13.0}));     // nodal moments; node 2 at y = 1
+  EXPECT_EQ(r.tangential_force, (Vec3{26, 0, 0}));      // 2 nodes x (3 + 10), global axes without frame nodes
+  EXPECT_EQ(r.moment, (Vec3{0, 2 * 0.5 * 13, -13.0}));  // nodal moments; node 2 at y = 1
 }
 
 }  // namespace
