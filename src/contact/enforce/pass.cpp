@@ -138,6 +138,15 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   if (!held.node_active(i)) return;
   const Vec3 x = held.x()[at(i)];
   const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
+  if (before.in_front != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
+    const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
+    const double moved = std::max(norm(x - held_loads.x_before[at(i)] - mean_step_), norm(coming)) + surface_step_;
+    const double reached = options_.gap + 4.0 * moved;
+    if (moved < 0.25 * smallest_depth_ && candidates_.nearest_then(i) - candidates_.slack() > reached) {
+      touch.far = true;
+      return;
+    }
+  }
   Measure m;
   if (was_held || !candidates_.of(i).empty()) m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal} : HeldBy{});
   const auto take = [&](const Measure& measure) {
@@ -149,6 +158,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     touch.distance = measure.distance;
   };
   bool meets = false;
+  after.in_front = m.found() && !m.closest.beyond && m.distance >= 0.0 ? 1 : 0;
   if (m.found()) {
     take(m);
     meets = !m.closest.beyond && options_.gap - m.distance > 0.0;
@@ -256,7 +266,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   NodeState& after = next_[at(i)];
   const Rules& rules = options_.rules;
   if (!touch.known) {
-    if (!closest() || !rules.limits_step || host.dt <= 0.0) return;
+    if (!closest() || touch.far || !rules.limits_step || host.dt <= 0.0) return;
     look_ahead(host, held, surface, held_loads, i);
     return;
   }

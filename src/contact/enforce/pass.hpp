@@ -51,7 +51,7 @@ struct NodeState {
   std::uint8_t held = 0;
   std::uint8_t ignored = 0;      ///< lies behind and came from behind: not met until it is seen in front
   std::uint8_t anchored = 0;
-  std::uint8_t spare = 0;
+  std::uint8_t in_front = 0;     ///< was measured in front of a facet
 };
 
 struct PassTotals {
@@ -89,6 +89,7 @@ class Pass {
     bool known = false;    ///< facet, point, normal, distance are valid
     bool contact = false;
     bool fresh_hit = false;
+    bool far = false;      ///< cannot touch now or in the coming step: not measured
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;

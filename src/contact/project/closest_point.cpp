@@ -16,11 +16,11 @@ Box domain(const Patch& patch) {
   return {-1.0 - open(3), 1.0 + open(1), -1.0 - open(0), 1.0 + open(2)};
 }
 
-// X = c + a s + b t + g s t.
+// X = c + a s + b t + g s t, seen from `origin`: near the projected point rounding is that of the facet, not of the model's size.
 struct Bilinear {
   Vec3 c, a, b, g;
-  explicit Bilinear(const Patch& p)
-      : c(0.25 * (p.x[0] + p.x[1] + p.x[2] + p.x[3])),
+  explicit Bilinear(const Patch& p, const Vec3& origin = {})
+      : c(0.25 * ((p.x[0] - origin) + (p.x[1] - origin) + (p.x[2] - origin) + (p.x[3] - origin))),
         a(0.25 * ((p.x[1] - p.x[0]) + (p.x[2] - p.x[3]))),
         b(0.25 * ((p.x[3] - p.x[0]) + (p.x[2] - p.x[1]))),
         g(0.25 * ((p.x[0] - p.x[1]) + (p.x[2] - p.x[3]))) {}
@@ -31,9 +31,9 @@ struct Minimum {
   double s, t, squared_distance;
 };
 
-// Projected Newton with active bounds from one start.
-Minimum descend(const Bilinear& q, const Box& box, const Vec3& x, double s, double t) {
-  Vec3 r = x - q.at(s, t);
+// Projected Newton with active bounds from one start; q is seen from the point that is projected.
+Minimum descend(const Bilinear& q, const Box& box, double s, double t) {
+  Vec3 r = -q.at(s, t);
   double value = squared_norm(r);
   for (int iteration = 0; iteration < 60; ++iteration) {
     const Vec3 xs = q.a + t * q.g;
@@ -70,7 +70,7 @@ Minimum descend(const Bilinear& q, const Box& box, const Vec3& x, double s, doub
     if (std::abs(ds) < projection_tolerance && std::abs(dt) < projection_tolerance) {
       s = std::clamp(s + ds, box.low_s, box.high_s);
       t = std::clamp(t + dt, box.low_t, box.high_t);
-      r = x - q.at(s, t);
+      r = -q.at(s, t);
       value = squared_norm(r);
       break;
     }
@@ -79,10 +79,10 @@ Minimum descend(const Bilinear& q, const Box& box, const Vec3& x, double s, doub
     for (int halving = 0; halving < 40; ++halving) {
       const double next_s = std::clamp(s + factor * ds, box.low_s, box.high_s);
       const double next_t = std::clamp(t + factor * dt, box.low_t, box.high_t);
-      const Vec3 next_r = x - q.at(next_s, next_t);
+      const Vec3 next_r = -q.at(next_s, next_t);
       const double next = squared_norm(next_r);
       // Close to the minimum the distance stands still in rounding while s and t still gain digits.
-      const bool settled = std::abs(ds) + std::abs(dt) < 1e-6 && halving == 0;
+      const bool settled = std::abs(ds) + std::abs(dt) < 1e-4 && halving == 0;
       if (next < value || settled) {
         moved = next_s != s || next_t != t;
         s = next_s;
@@ -98,8 +98,8 @@ Minimum descend(const Bilinear& q, const Box& box, const Vec3& x, double s, doub
       if (hold_s || hold_t) break;
       const double only_s = std::clamp(s - gs / std::max(a11, 1e-300), box.low_s, box.high_s);
       const double only_t = std::clamp(t - gt / std::max(a22, 1e-300), box.low_t, box.high_t);
-      const Vec3 rs = x - q.at(only_s, t);
-      const Vec3 rt = x - q.at(s, only_t);
+      const Vec3 rs = -q.at(only_s, t);
+      const Vec3 rt = -q.at(s, only_t);
       if (squared_norm(rs) < value && squared_norm(rs) <= squared_norm(rt)) {
         s = only_s;
         r = rs;
@@ -116,16 +116,16 @@ Minimum descend(const Bilinear& q, const Box& box, const Vec3& x, double s, doub
 }
 
 ClosestPoint closest_on_quad(const Patch& patch, const Vec3& x) {
-  const Bilinear q(patch);
+  const Bilinear q(patch, x);
   const Box box = domain(patch);
-  Minimum best = descend(q, box, x, 0.0, 0.0);
+  Minimum best = descend(q, box, 0.0, 0.0);
   // Not convex when |r.g| reaches the metric's smallest value: try the corners as well.
   const double metric = std::min(squared_norm(q.a), squared_norm(q.b));
   const double twist = squared_norm(q.g);
   if (twist > 1e-8 * metric && best.squared_distance * twist > 0.04 * metric * metric) {
     for (const double s : {box.low_s, box.high_s}) {
       for (const double t : {box.low_t, box.high_t}) {
-        const Minimum other = descend(q, box, x, s, t);
+        const Minimum other = descend(q, box, s, t);
         if (other.squared_distance < best.squared_distance) best = other;
       }
     }

@@ -45,6 +45,7 @@ void Candidates::update(const Side& held, const Side& surface, const std::functi
   tree_.build(boxes_);
   first_.assign(at(held.node_count()) + 1, 0);
   entries_.clear();
+  nearest_.assign(at(held.node_count()), 1e300);
   for (Index i = 0; i < held.node_count(); ++i) {
     const double distance = reach(i);
     const auto begin = static_cast<std::ptrdiff_t>(entries_.size());
@@ -59,7 +60,9 @@ void Candidates::update(const Side& held, const Side& surface, const std::functi
           if (n == held.nodes()[at(i)]) return;  // nobody touches a facet of its own
         }
         const double away = std::sqrt(closest_point(surface.patch(f), x).squared_distance);
-        if (away <= limit) entries_.push_back({f, away});
+        if (away > limit) return;
+        entries_.push_back({f, away});
+        nearest_[at(i)] = std::min(nearest_[at(i)], away);
       });
       std::sort(entries_.begin() + begin, entries_.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });
     }

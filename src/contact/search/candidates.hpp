@@ -26,6 +26,8 @@ class Candidates {
   [[nodiscard]] std::span<const Entry> of(Index node) const {
     return std::span(entries_).subspan(at(first_[at(node)]), at(first_[at(node) + 1] - first_[at(node)]));
   }
+  /// Distance of the node's nearest facet when the lists were made; 1e300: none listed.
+  [[nodiscard]] double nearest_then(Index node) const { return nearest_[at(node)]; }
   /// Upper bound of the change of any node-to-facet distance since the lists were made.
   [[nodiscard]] double slack() const { return slack_; }
   /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box.
@@ -42,6 +44,7 @@ class Candidates {
   std::vector<Bounds> boxes_;
   std::vector<Index> first_;
   std::vector<Entry> entries_;
+  std::vector<double> nearest_;
   std::vector<Vec3> held_then_, surface_then_;
   Vec3 shift_;
   double slack_ = 0.0;

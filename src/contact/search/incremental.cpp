@@ -49,19 +49,31 @@ Index choose_facet(const Side& surface, Index n, Index previous, const Vec3& x) 
 }
 
 void IncrementalSearch::start(const Side& held, const Side& surface, std::vector<Tracked>& tracked) {
+  then_.clear();
+  refresh(surface, 0.0);
   tracked.assign(at(held.node_count()), {});
+  if (surface.node_count() == 0) return;
   for (Index i = 0; i < held.node_count(); ++i) {
     Tracked& t = tracked[at(i)];
+    const Vec3 x = held.x()[at(i)];
     double best = 1e300;
-    for (Index s = 0; s < surface.node_count(); ++s) {
-      if (surface.nodes()[at(s)] == held.nodes()[at(i)]) continue;
-      const double away = squared_norm(held.x()[at(i)] - surface.x()[at(s)]);
-      if (away <= best) {
-        best = away;
-        t.node = s;
-      }
+    bool everything = false;
+    for (double radius = reach_; !everything && best > radius * radius; radius *= 2.0) {
+      Bounds box{x, x};
+      box.inflate(radius);
+      Index seen = 0;
+      tree_.query(box, [&](Index s) {
+        ++seen;
+        if (surface.nodes()[at(s)] == held.nodes()[at(i)]) return;
+        const double away = squared_norm(x - surface.x()[at(s)]);
+        if (away < best || (away == best && s > t.node)) {
+          best = away;
+          t.node = s;
+        }
+      });
+      everything = seen == surface.node_count();
     }
-    if (t.node != no_index) t.facet = choose_facet(surface, t.node, no_index, held.x()[at(i)]);
+    if (t.node != no_index) t.facet = choose_facet(surface, t.node, no_index, x);
   }
 }
 
@@ -80,7 +92,7 @@ void IncrementalSearch::refresh(const Side& surface, double gap) {
     diagonal = std::max({diagonal, squared_norm(then_[at(node[2])] - then_[at(node[0])]), squared_norm(then_[at(node[3])] - then_[at(node[1])])});
   }
   // Whoever can touch a facet has one of its nodes within a diagonal.
-  reach_ = std::sqrt(diagonal) + std::abs(gap);
+  reach_ = std::max(std::sqrt(diagonal) + std::abs(gap), 1e-300);
 }
 
 void IncrementalSearch::update(const Side& held, const Side& surface, std::vector<Tracked>& tracked, double gap) {

@@ -20,7 +20,7 @@ struct Tracked {
 
 class IncrementalSearch {
  public:
-  /// Exhaustive start (7.2.5): the last of equally near nodes wins.
+  /// First nearest nodes (7.2.5): the last of equally near ones wins.
   void start(const Side& held, const Side& surface, std::vector<Tracked>& tracked);
   /// One cycle for all held nodes.
   void update(const Side& held, const Side& surface, std::vector<Tracked>& tracked, double gap);
