@@ -116,20 +116,9 @@ class ElementReader {
                             fmt::format("part {} has property {}, which is not for {}: {} is needed", p.id, property.id,
                                         solid ? "solids" : "shells", solid ? "/PROP/SOLID" : "/PROP/SHELL"));
     }
-    if (!empty && fits && p.material == no_index && !part_has_material_id(p.id)) {
+    if (!empty && fits && c_.part_lacks_material[static_cast<std::size_t>(part)]) {
       c_.diagnostics->error("model.missing_material", r.place(), fmt::format("part {} has elements but no material: give it a mat_ID", p.id));
     }
-  }
-
-  /// Whether the /PART card names a material at all (an unknown one was reported there).
-  [[nodiscard]] bool part_has_material_id(Id part) const {
-    for (const deck::Block& b : c_.deck->blocks) {
-      if (!b.is(0, "PART") || deck::parse_integer(b.word(1)) != part) continue;
-      BlockReader r(c_, b, 1, true);
-      r.next_card();
-      return !r.blank({11, 20}) && r.text({11, 20}) != "0";
-    }
-    return true;
   }
 
   void read_block(const deck::Block& b, Family family) {

@@ -127,6 +127,7 @@ void SetReader::apply_clause(BlockReader& r, std::string_view key, const std::ve
 
 void SetReader::evaluate_general_set(Item& item) {
   BlockReader r(c_, *item.block, item.id_word, true);
+  item.title = r.title();
   item.content = std::make_unique<Content>();
   std::string key;
   while (r.next_card()) {

@@ -212,6 +212,7 @@ SetReader::Members SetReader::combine_groups_of_solids(BlockReader& r) {
 
 void SetReader::evaluate_node_group(Item& item) {
   BlockReader r(c_, *item.block, item.id_word, true);
+  item.title = r.title();
   const std::string type = deck::to_upper(item.block->word(1));
   Members plus;
   Members minus;
@@ -272,6 +273,7 @@ void SetReader::evaluate_node_group(Item& item) {
 
 void SetReader::evaluate_element_group(Item& item) {
   BlockReader r(c_, *item.block, item.id_word, true);
+  item.title = r.title();
   const SetFamily family = item.family;
   const std::string type = deck::to_upper(item.block->word(1));
   Members plus;
@@ -315,6 +317,7 @@ void SetReader::evaluate_element_group(Item& item) {
 
 void SetReader::evaluate_part_group(Item& item) {
   BlockReader r(c_, *item.block, item.id_word, true);
+  item.title = r.title();
   const std::string type = deck::to_upper(item.block->word(1));
   if (type == "GRPART") {
     item.members = combine_groups(r, SetFamily::grpart, "/GRPART", [](Index p, Members& out) { out.push_back(p); });

@@ -81,6 +81,7 @@ std::set<Id> declared_ids(const Context& c, std::string_view keyword) {
 void read_parts(Context& c) {
   struct Entry : Part {
     Id subset = 0;
+    bool lacks_material = false;
   };
   std::vector<Entry> parts;
   std::vector<Place> places;
@@ -100,7 +101,9 @@ void read_parts(Context& c) {
     const Id property = r.integer({1, 10}, "prop_ID");
     if (property == 0) r.error("model.missing_reference", {1, 10}, "prop_ID", "a part needs a property: the id of a /PROP block");
     p.property = resolve(r, c.tables.properties, properties, property, "/PROP", {1, 10}, "prop_ID");
-    p.material = resolve(r, c.tables.materials, materials, r.integer({11, 20}, "mat_ID"), "/MAT", {11, 20}, "mat_ID");
+    const Id material = r.integer({11, 20}, "mat_ID");
+    p.lacks_material = material == 0;
+    p.material = resolve(r, c.tables.materials, materials, material, "/MAT", {11, 20}, "mat_ID");
     p.subset = r.integer({21, 30}, "subset_ID");
     p.contact_thickness = r.real({31, 50}, "Thick", dim::length);
     if (p.contact_thickness < 0.0) r.error("model.negative_thickness", {31, 50}, "Thick", fmt::format("{:g} is negative: a thickness is positive, or 0 for that of the property", p.contact_thickness));
@@ -110,6 +113,7 @@ void read_parts(Context& c) {
   sort_by_id(c, parts, places, "/PART", c.tables.parts);
   for (Entry& p : parts) {
     c.part_subset.push_back(p.subset);
+    c.part_lacks_material.push_back(p.lacks_material);
     c.model->parts.push_back(std::move(static_cast<Part&>(p)));
   }
 }

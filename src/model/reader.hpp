@@ -55,6 +55,7 @@ struct Context {
   ShellDefaults shell_defaults;
   SolidDefaults solid_defaults;
   std::vector<Id> part_subset;             ///< subset id of each part (0: root)
+  std::vector<bool> part_lacks_material;   ///< the card of the part names none
   Units input;                             ///< units of the deck's values; work units are model->units
   std::unordered_map<Id, Units> local;     ///< /UNIT/id
 

@@ -73,15 +73,14 @@ void SetReader::collect() {
     item.family = family;
     item.block = &b;
     item.id_word = has_option ? 3 : 2;
-    const BlockReader r(c_, b, item.id_word, true);
-    item.id = r.id();
-    item.title = r.title();
+    item.id = deck::parse_integer(b.word(static_cast<std::size_t>(item.id_word))).value_or(0);  // a bad id is reported on evaluation
+    const Place place = c_.deck->place(b);
     const auto slot = static_cast<std::size_t>(family);
     if (item.id <= 0) continue;
     if (by_id_[slot].emplace(item.id, &item).second) {
-      first[slot].emplace(item.id, r.place());
+      first[slot].emplace(item.id, place);
     } else {
-      report_duplicate(c_, family_name(family), item.id, r.place(), first[slot][item.id]);
+      report_duplicate(c_, family_name(family), item.id, place, first[slot][item.id]);
     }
   }
 }

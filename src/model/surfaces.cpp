@@ -167,6 +167,7 @@ void SetReader::read_segments(BlockReader& r, std::vector<Segment>& out) {
 void SetReader::evaluate_surface(Item& item) {
   const deck::Block& b = *item.block;
   BlockReader r(c_, b, item.id_word, true);
+  item.title = r.title();
   const std::string type = deck::to_upper(b.word(1));
   const std::string option = item.id_word == 3 ? deck::to_upper(b.word(2)) : std::string();
   const Faces faces = option == "EXT" ? Faces::external : (option == "ALL" ? Faces::all : Faces::none);
