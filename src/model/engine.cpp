@@ -202,8 +202,9 @@ class EngineReader {
       c_.diagnostics->error("engine.missing_time", engine_.place(block), "the final time is missing; write it on the line below /RUN");
       return true;
     }
+    const int errors = c_.diagnostics->error_count();
     k_.t_end = d.real(0, "Tstop");
-    if (k_.t_end <= 0.0) d.bad(0, "Tstop", fmt::format("{} is not a final time; it must be greater than 0", k_.t_end));
+    if (k_.t_end <= 0.0 && c_.diagnostics->error_count() == errors) d.bad(0, "Tstop", fmt::format("{} is not a final time; it must be greater than 0", k_.t_end));
     return true;
   }
 

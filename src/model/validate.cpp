@@ -31,16 +31,30 @@ class Validator {
   explicit Validator(Context& c) : m_(*c.model), d_(*c.diagnostics), c_(c), mass_(nodal_masses(m_)) {}
 
   void run() {
-    thicknesses();
-    parts();
-    interfaces();
-    rigid_bodies();
+    // What a faulty mesh or set leaves behind (parts without elements, empty surfaces) is not a fault of its own.
+    mesh_is_sound_ = !has_error_of({"NODE", "SHELL", "SH3N", "BRICK", "TETRA4", "PENTA6", "PART", "MAT", "PROP", "BEGIN", "UNIT"});
+    const bool masses_are_known = mesh_is_sound_ && !has_error_of({"ADMAS", "RBODY"});
+    if (mesh_is_sound_) {
+      thicknesses();
+      parts();
+    }
+    interfaces(masses_are_known);
+    rigid_bodies(masses_are_known);
     motions();
-    loads_on_massless_nodes();
+    if (masses_are_known) loads_on_massless_nodes();
     unused_functions();
   }
 
  private:
+  /// An error was found in a block of one of these keywords.
+  bool has_error_of(std::initializer_list<std::string_view> words) const {
+    return std::any_of(d_.all().begin(), d_.all().end(), [&](const Diagnostic& d) {
+      if (d.severity != Severity::error || d.place.keyword.empty()) return false;
+      const std::string word = d.place.keyword.substr(1, d.place.keyword.find('/', 1) - 1);
+      return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return same_word(w, word); });
+    });
+  }
+
   Place place(std::string_view word, Id id) const { return place_of(c_, word, id); }
 
   Id id_of(Index node) const { return m_.node_id[static_cast<std::size_t>(node)]; }
@@ -97,18 +111,19 @@ class Validator {
     return nodes;
   }
 
-  void interfaces() {
+  void interfaces(bool masses_are_known) {
+    const bool sets_are_sound = mesh_is_sound_ && !has_error_of({"SURF", "GRNOD", "SET", "GRSHEL", "GRSH3N", "GRBRIC"});
     for (const Interface& i : m_.interfaces) {
       if (const auto* t3 = std::get_if<InterfaceType3>(&i.type)) {
-        check_surface(i, t3->surface_1, false);
-        check_surface(i, t3->surface_2, false);
+        if (sets_are_sound) check_surface(i, t3->surface_1, false);
+        if (sets_are_sound) check_surface(i, t3->surface_2, false);
         check_two_sides(i, *t3);
       } else if (const auto* t5 = std::get_if<InterfaceType5>(&i.type)) {
-        check_surface(i, t5->surface, false);
-        check_nodes(i, t5->nodes, t5->surface);
+        if (sets_are_sound) check_surface(i, t5->surface, false);
+        check_nodes(i, t5->nodes, t5->surface, masses_are_known);
       } else if (const auto* t7 = std::get_if<InterfaceType7>(&i.type)) {
-        check_surface(i, t7->surface, t7->istf == 1);
-        check_nodes(i, t7->nodes, no_index);
+        if (sets_are_sound) check_surface(i, t7->surface, t7->istf == 1);
+        check_nodes(i, t7->nodes, no_index, masses_are_known);
       }
     }
   }
@@ -174,14 +189,14 @@ class Validator {
                          surface(t.surface_2).id, list(ids_of(shared))));
   }
 
-  void check_nodes(const Interface& i, const std::vector<Index>& nodes, Index main) {
-    if (nodes.empty() && !d_.has_errors()) {
+  void check_nodes(const Interface& i, const std::vector<Index>& nodes, Index main, bool masses_are_known) {
+    if (nodes.empty() && !d_.has_errors()) {  // else the missing group is what was reported
       d_.error("model.empty_set", i.place, "the group of secondary nodes (grnd_IDs) is empty; name the nodes that can touch the surface");
     }
     std::vector<Index> massless;
     const std::set<Index> held = held_nodes();
     for (const Index n : nodes) {
-      if (mass_[static_cast<std::size_t>(n)] <= 0.0 && !held.contains(n)) massless.push_back(n);
+      if (masses_are_known && mass_[static_cast<std::size_t>(n)] <= 0.0 && !held.contains(n)) massless.push_back(n);
     }
     if (!massless.empty()) {
       d_.error("model.no_mass", i.place,
@@ -211,7 +226,7 @@ class Validator {
     return held;
   }
 
-  void rigid_bodies() {
+  void rigid_bodies(bool masses_are_known) {
     std::map<Index, Id> owner;  // node -> body
     for (const RigidBody& b : m_.rigid_bodies) {
       std::map<Id, std::vector<Index>> shared;
@@ -229,8 +244,10 @@ class Validator {
       }
       double mass = b.mass;
       for (const Index n : all) mass += mass_[static_cast<std::size_t>(n)];
-      if (!all.empty() && mass <= 0.0) {
-        d_.error("model.no_mass", place("RBODY", b.id), "the rigid body has no mass; give one in the field Mass, or hold nodes of elements that have mass");
+      // A body that turns about a fixed main node needs no mass, so this is not an error.
+      if (masses_are_known && b.sensor == no_index && !all.empty() && mass <= 0.0) {
+        d_.warning("model.no_mass", place("RBODY", b.id),
+                   "the rigid body has no mass and cannot move freely; give one in the field Mass, or hold nodes of elements that have mass");
       }
     }
   }
@@ -320,6 +337,7 @@ class Validator {
   Diagnostics& d_;
   Context& c_;
   std::vector<double> mass_;
+  bool mesh_is_sound_ = true;
 };
 
 }  // namespace

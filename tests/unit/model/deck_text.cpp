@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
 
-namespace abut::model::testing {
+namespace abut::model::base_deck {
 
 const char* const base_starter = R"deck(#RADIOSS STARTER
 /BEGIN
@@ -42,6 +41,7 @@ two blocks, two plates
         27                   1                   1                 5.5
         28                   0                   1                 5.5
         30                 0.5                 0.5                   3
+        31                 0.5                 0.5                   9
 /MAT/ELAST/1
 steel
               7.8E-6                   0
@@ -107,6 +107,12 @@ cover nodes
 /GRNOD/NODE/5
 main node
         30
+/GRNOD/NODE/6
+loose node
+        31
+/GRNOD/PART/7
+plate nodes
+         3
 /SURF/PART/EXT/1
 lower skin
          1
@@ -255,10 +261,4 @@ std::string reals(const std::vector<std::string>& fields) {
   return s;
 }
 
-std::filesystem::path decks_folder() {
-  const char* given = std::getenv("ABUT_DECKS");
-  const std::filesystem::path folder = given != nullptr ? std::filesystem::path(given) : std::filesystem::path(ABUT_SOURCE_DIR) / "../shared/decks";
-  return std::filesystem::is_directory(folder) ? folder : std::filesystem::path{};
-}
-
-}  // namespace abut::model::testing
+}  // namespace abut::model::base_deck

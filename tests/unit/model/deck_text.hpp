@@ -1,7 +1,6 @@
 // A small correct deck as text, and what tests do with it: change a line, build, look at the findings.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,7 +8,7 @@
 #include "core/diagnostic.hpp"
 #include "model/build.hpp"
 
-namespace abut::model::testing {
+namespace abut::model::base_deck {
 
 /// Two bricks one above the other, a plate and a cover plate; every kind of condition, one interface of each type (units kg, mm, ms).
 extern const char* const base_starter;
@@ -33,7 +32,4 @@ struct Built {
 [[nodiscard]] std::string integers(const std::vector<std::string>& fields);
 [[nodiscard]] std::string reals(const std::vector<std::string>& fields);
 
-/// Folder of the decks with reference results: $ABUT_DECKS, or shared/decks beside the source; empty path: not there.
-[[nodiscard]] std::filesystem::path decks_folder();
-
-}  // namespace abut::model::testing
+}  // namespace abut::model::base_deck

@@ -11,13 +11,13 @@
 namespace abut::model {
 namespace {
 
-using testing::base_starter;
-using testing::build_changed;
-using testing::build_text;
-using testing::Built;
-using testing::integers;
-using testing::reals;
-using testing::with_line;
+using base_deck::base_starter;
+using base_deck::build_changed;
+using base_deck::build_text;
+using base_deck::Built;
+using base_deck::integers;
+using base_deck::reals;
+using base_deck::with_line;
 
 /// Ids behind node indices.
 std::vector<Id> ids(const Model& m, const std::vector<Index>& nodes) {
@@ -222,7 +222,7 @@ TEST(Conditions, MovingWallStartsAtItsNode) {
   EXPECT_EQ(wall.normal, (Vec3{0, 0, 1}));
   EXPECT_EQ(wall.velocity, (Vec3{0, 0, -5}));
   EXPECT_EQ(wall.mass, 2e-6);
-  EXPECT_EQ(ids(b.model, wall.nodes), (std::vector<Id>{21, 22, 23, 24, 25, 26, 27, 28}));  // its own node is not among them
+  EXPECT_EQ(ids(b.model, wall.nodes), (std::vector<Id>{21, 22, 23, 24, 25, 26, 27, 28, 31}));  // its own node is not among them
 }
 
 TEST(Conditions, OldLayoutHasEightColumnsAndNoAbscissaScale) {

@@ -9,9 +9,9 @@
 namespace abut::model {
 namespace {
 
-using testing::base_starter;
-using testing::build_text;
-using testing::Built;
+using base_deck::base_starter;
+using base_deck::build_text;
+using base_deck::Built;
 
 Built build_engine(const std::string& engine) { return build_text(base_starter, engine); }
 Controls controls(const std::string& engine) { return build_engine(engine).model.controls; }

@@ -11,13 +11,13 @@
 namespace abut::model {
 namespace {
 
-using testing::base_starter;
-using testing::build_changed;
-using testing::build_text;
-using testing::Built;
-using testing::integers;
-using testing::reals;
-using testing::with_line;
+using base_deck::base_starter;
+using base_deck::build_changed;
+using base_deck::build_text;
+using base_deck::Built;
+using base_deck::integers;
+using base_deck::reals;
+using base_deck::with_line;
 
 const InterfaceType3& type3(const Model& m) { return std::get<InterfaceType3>(m.interfaces.at(0).type); }
 

@@ -11,13 +11,13 @@
 namespace abut::model {
 namespace {
 
-using testing::base_starter;
-using testing::build_changed;
-using testing::build_text;
-using testing::Built;
-using testing::integers;
-using testing::reals;
-using testing::with_line;
+using base_deck::base_starter;
+using base_deck::build_changed;
+using base_deck::build_text;
+using base_deck::Built;
+using base_deck::integers;
+using base_deck::reals;
+using base_deck::with_line;
 
 const ThRequest* find(const Model& m, ThKind kind, Id id) {
   const auto found = std::find_if(m.th_requests.begin(), m.th_requests.end(), [&](const ThRequest& r) { return r.kind == kind && r.id == id; });

@@ -1,0 +1,66 @@
+#include "unit/model/broken_decks.hpp"
+
+namespace abut::model::base_deck {
+
+// clang-format off
+std::vector<BrokenDeck> broken_outputs_and_engines() {
+  return {
+    {"unknown variable", Changed::starter, "/TH/INTER/1", 2,
+     "DEF       FLUX",
+     {"deck_0000.rad:174: warning: /TH/INTER/1 field 'var' (columns 11-20): 'FLUX' is not a variable of /TH/INTER; it is left out (DEF asks for the usual ones)"}},
+    {"history of a missing part", Changed::starter, "/TH/PART/2", 3,
+     "         1         2         3        14",
+     {"deck_0000.rad:176: warning: /TH/PART/2: there is no PART 14; its time history is left out"}},
+    {"history of something else", Changed::starter, "/TH/PART/2", 0,
+     "/TH/MONV/2",
+     {"deck_0000.rad:176: warning: /TH/MONV/2: time history of 'MONV' is not supported; it is left out"}},
+    {"history in a missing skew", Changed::starter, "/TH/NODE/3", 3,
+     "        13         5corner",
+     {"deck_0000.rad:183: /TH/NODE/3 field 'skew_ID' (columns 11-20): no /SKEW with id 5"}},
+    {"no run", Changed::engine, "/RUN/base/1", 0,
+     "/VERS/2022\n",
+     {"deck_0001.rad: the Engine deck has no /RUN/name/1 with the final time on the line below"}},
+    {"no final time", Changed::engine, "/RUN/base/1", 1,
+     "#",
+     {"deck_0001.rad:1: /RUN/base/1: the final time is missing; write it on the line below /RUN"}},
+    {"final time is a word", Changed::engine, "/RUN/base/1", 1,
+     "soon",
+     {"deck_0001.rad:2: /RUN/base/1 field 'Tstop': 'soon' is not a real number"}},
+    {"final time negative", Changed::engine, "/RUN/base/1", 1,
+     "-0.05",
+     {"deck_0001.rad:2: /RUN/base/1 field 'Tstop': -0.05 is not a final time; it must be greater than 0"}},
+    {"second run", Changed::engine, "/RUN/base/1", 0,
+     "/RUN/base/2",
+     {"deck_0001.rad:1: /RUN/base/2: '2' is not run 1; a run that continues another one is not supported, write /RUN/base/1"}},
+    {"scale above one", Changed::engine, "/DT", 1,
+     "1.2 0.",
+     {"deck_0001.rad:12: warning: /DT field 'Tsca': 1.2 is above 1; the step may be beyond the stable one, 0.9 is usual"}},
+    {"scale negative", Changed::engine, "/DT", 1,
+     "-0.9 0.",
+     {"deck_0001.rad:12: /DT field 'Tsca': -0.9 is negative; write 0 or more"}},
+    {"mass scaling without step", Changed::engine, "/DT", 0,
+     "/DT/NODA/CST/0",
+     {"deck_0001.rad:12: /DT/NODA/CST/0 field 'Tmin': mass scaling needs the step that it shall keep: write a scale and a minimum step, e.g. 0.9 1e-6"}},
+    {"mass scaling on a missing group", Changed::engine, "/DT", 0,
+     "/DT/NODA/CST/1\n0.9 1e-6\n44\n/DT",
+     {"deck_0001.rad:13: /DT/NODA/CST/1 field 'grnd_ID': no /GRNOD with id 44"}},
+    {"keywords that change the mechanics", Changed::engine, "/VERS/2022", 0,
+     "/DT/AMS\n0.9 1e-6\n/KEREL\n/DEL/SHELL/1\n3",
+     {"deck_0001.rad: these keywords are not supported, and without them the result would be wrong: /DT/AMS, /KEREL, /DEL/SHELL/1; take them out to run without"}},
+    {"history interval negative", Changed::engine, "/TFILE/4", 1,
+     "-1",
+     {"deck_0001.rad:5: /TFILE/4 field 'dt_TH': -1 is negative; write 0 or more"}},
+    {"energy limit is a word", Changed::engine, "/STOP", 1,
+     "never",
+     {"deck_0001.rad:16: /STOP field 'Emax': 'never' is not a real number"}},
+    {"rigid body switched by another node", Changed::engine, "/STOP", 0,
+     "/RBODY/OFF\n13\n/STOP",
+     {"deck_0001.rad:16: /RBODY/OFF field 'node_ID': node 13 is not the main node of a /RBODY"}},
+    {"first step above the largest", Changed::engine, "/STOP", 0,
+     "/DTIX\n1e-3 1e-4\n/STOP",
+     {"deck_0001.rad:16: /DTIX field 'dt_ini': the first step 0.001 is larger than the largest one 0.0001"}},
+  };
+}
+// clang-format on
+
+}  // namespace abut::model::base_deck

@@ -1,0 +1,92 @@
+// Checks of a whole model, the summary, and the decks that must build (type3.md T6; deck-format.md E.1).
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "model/summary.hpp"
+#include "unit/model/deck_text.hpp"
+#include "unit/model/fixture.hpp"
+
+namespace abut::model {
+namespace {
+
+using base_deck::base_starter;
+using base_deck::build_changed;
+using base_deck::build_text;
+using base_deck::Built;
+using base_deck::with_line;
+
+/// A row of `n` shells; its surfaces 1 and 2 share all their nodes.
+std::string shared_strip(int n) {
+  std::string deck = "/BEGIN\nstrip\n      2022         0\n/NODE\n";
+  for (int i = 0; i <= n; ++i) {
+    deck += fmt::format("{:>10}{:>20}{:>20}{:>20}\n{:>10}{:>20}{:>20}{:>20}\n", 2 * i + 1, i, 0, 0, 2 * i + 2, i, 1, 0);
+  }
+  deck += testing::steel;
+  deck += "/PROP/SHELL/1\nplate\n\n\n         0         0                 .01\n/PART/1\na\n         1         1\n/SHELL/1\n";
+  for (int i = 0; i < n; ++i) deck += fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}\n", i + 1, 2 * i + 1, 2 * i + 3, 2 * i + 4, 2 * i + 2);
+  return deck + "/SURF/PART/1\na\n         1\n/SURF/PART/2\nb\n        -1\n/INTER/TYPE3/5\nboth\n         1         2\n\n\n/END\n";
+}
+
+TEST(Validate, SharedNodesOfAType3AreListedUpToTwenty) {  // T6
+  const Built b = build_text(shared_strip(14));
+  ASSERT_EQ(b.diagnostics.error_count(), 1);
+  EXPECT_TRUE(b.has("/INTER/TYPE3/5: 30 nodes are on both surfaces (1 and 2): 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20 (and 10 more); "
+                    "a node may belong to one of them only"));
+}
+
+TEST(Validate, PartsWithoutElementsAndUnusedFunctionsAreNoted) {
+  const Built b = build_text(with_line(base_starter, "/SENSOR/TIME/1", 0,
+                                       "/PART/9\nspare\n         2         2         0\n/FUNCT/8\nspare\n                   0                   1\n"
+                                       "                   1                   1\n/SENSOR/TIME/1"));
+  EXPECT_EQ(b.messages(), (std::vector<std::string>{"note: this part has no element: 9", "note: nothing uses this /FUNCT: 8"}));
+}
+
+TEST(Summary, NamesWhatTheModelHolds) {
+  const std::string text = summary(build_text(base_starter).model);
+  for (const char* line : {
+           "base: two blocks, two plates\n",
+           "  format 2022, units kg mm ms\n",
+           "  26 nodes, 2 SHELL, 0 SH3N, 2 BRICK, 0 TETRA4\n",
+           "Parts (4), mass 2.34e-05 kg and 4e-06 added to nodes\n",
+           "  part 1 \"lower\": 1 BRICK, mass 7.8e-06, property 1 (solid, Isolid 1), material 1 (LAW1 elastic)\n",
+           "  part 3 \"plate\": 1 SHELL, mass 3.9e-06, property 2 (shell, Ishell 1, N 5, t 0.5), material 2 (LAW2 Johnson-Cook)\n",
+           "  interface 1 \"block to block\", TYPE3\n    surface 1 \"lower skin\": 8 nodes, 6 segments (6 on solids)\n",
+           "    Stfac 0.2, gap 0.01, friction 0.2\n",
+           "  interface 2 \"cover to plate\", TYPE5\n    4 secondary nodes\n    surface 3 \"plate\": 4 nodes, 1 segments (1 on shells)\n",
+           "  rigid body 1: 4 secondary nodes\n",
+           "  rigid wall 1 \"floor\": with friction plane, 4 nodes, normal (0, 0, 1)\n",
+           "  until 0.05 ms, history every 0.0005, animation every 0.005 from 0\n",
+           "  time history of 1 NODE, 4 PART, 2 INTER\n",
+           "  animation of VECT/VEL, ELEM/VONM\n",
+       }) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << "is not in\n" << text;
+  }
+}
+
+TEST(Summary, ListsWhatIsReadPast) {
+  const Built b = build_text(with_line(base_starter, "/SENSOR/TIME/1", 0, "/IOFLAG\n         5\n/SPMD\n         0\n/SENSOR/TIME/1"));
+  EXPECT_NE(summary(b.model).find("Read past, as they cannot change the mechanics\n  /IOFLAG (1)\n  /SPMD (1)\n"), std::string::npos);
+}
+
+TEST(SharedDecks, BuildWithoutAnError) {
+  const std::filesystem::path folder = testing::decks_folder();
+  if (folder.empty()) GTEST_SKIP() << "no shared decks: set ABUT_DECKS to the folder that holds them";
+  int decks = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.path().filename().string().ends_with("_0000.rad")) continue;
+    SCOPED_TRACE(entry.path().filename().string());
+    Diagnostics diagnostics;
+    const Model m = build(deck::read(entry.path(), diagnostics), diagnostics);
+    for (const Diagnostic& d : diagnostics.all()) EXPECT_NE(d.severity, Severity::error) << to_string(d);
+    EXPECT_GT(m.controls.t_end, 0.0);
+    EXPECT_LT(m.controls.history_interval, infinity);
+    EXPECT_FALSE(m.th_requests.empty());
+    EXPECT_FALSE(summary(m).empty());
+    ++decks;
+  }
+  EXPECT_GT(decks, 0);
+}
+
+}  // namespace
+}  // namespace abut::model
