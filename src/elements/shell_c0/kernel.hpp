@@ -99,7 +99,7 @@ ABUT_INLINE ShellStep<T> c0_step_bound(const ShellSection& s, const C0Geometry<T
   }
   T c = zero;
   if (s.membrane_damping > 0.0) {
-    c = half * t_per_a * T(s.membrane_damping) * sqrt(g.area) * (trace + sqrt(split + det));
+    c = t_per_a * T(s.membrane_damping) * sqrt(g.area) * damping_eigenvalue(trace, det);
   }
   ShellStep<T> out;
   out.step = stable_step(k, c);

@@ -20,6 +20,13 @@ ABUT_INLINE T stable_step(T k, T c) {
   return T(2.0) / (half_c + sqrt(half_c * half_c + k));
 }
 
+/// Largest eigenvalue of B^T D B for the isotropic D = [13 5 0; 5 13 0; 0 0 4]/12 that majorises the membrane damping's
+/// [1 1/2 0; 1/2 1 0; 0 0 1/3]; trace and determinant of the tensor P P^T.
+template <class T>
+ABUT_INLINE T damping_eigenvalue(T trace, T det) {
+  return T(1.0 / 24.0) * (T(13.0) * trace + sqrt(max(T(169.0) * trace * trace - T(576.0) * det, T(0.0))));
+}
+
 /// 2 c / h_ref, h_ref half of the last step `h` or of the element's own step, whichever is smaller.
 template <class T>
 ABUT_INLINE T viscous_stiffness(T c, T step, double h) {

@@ -20,7 +20,8 @@
 //   warped quads (Ishell 3, 4): hourglass rates see v_z through -2 z2 (P.v_z)/A, forces act on the rotations through z2/2;
 //               the coupling matrix E = k L R^T is not symmetric; its norm is at most
 //               k sqrt((|gamma|^2/mu + z2^2/J) (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu))), which is added to the largest.
-// Viscous parts: membrane damping has the form of the membrane with d (1, 1/2, 1/3) in place of C; the quadratic hourglass
+// Viscous parts: membrane damping has the form of the membrane with d [1 1/2; 1/2 1] and d/3 in shear in place of C. That is not isotropic
+// (d/4 would be); it is majorised by the isotropic d [13 5; 5 13]/12, d/3, exact for squares; the quadratic hourglass
 // terms enter with their tangent 2 c |rate|; linear ones (Ishell 3 rotations, N = 1 with dn) as they are. N = 1 has no bending and no
 // shear. Left out: stress (geometric) stiffness, of relative size stress/E.
 //
@@ -77,7 +78,7 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
   c = c + four * hg.viscous_dn * inverse_mass;
   if (s.membrane_damping > 0.0) {
     const T d = T(s.membrane_damping) * sqrt(a);
-    c = c + half * t_per_am * d * (trace + sqrt(max(trace * trace - T(3.0) * a2, zero)));
+    c = c + t_per_am * d * damping_eigenvalue(trace, a2);
   }
   ShellStep<T> out;
   out.step = stable_step(k, c);
