@@ -240,8 +240,8 @@ ElementOutput SolidGroup::output(Index element) const {
   out.off = at(element, f_off);
   out.internal_energy = at(element, f_energy);
   out.hourglass_energy = at(element, f_hourglass);
-  out.density = at(element, f_density);
-  out.volume = at(element, f_mass) / out.density;
+  out.density = config_.small_strain ? at(element, f_density) : at(element, f_mass) / at(element, f_volume);
+  out.volume = config_.small_strain ? at(element, f_mass) / out.density : at(element, f_volume);
   out.pressure = at(element, f_pressure);
   out.bulk_viscosity = at(element, f_viscosity);
   if (config_.law == 2) out.plastic_min = out.plastic_max = at(element, config_.law_field);

@@ -15,7 +15,7 @@ enum SolidField : int {
   f_viscosity,         ///< q, bulk viscous pressure
   f_volume,            ///< V at the last step; the frozen volume in small strain
   f_inverse_length,    ///< V^(-1/3)
-  f_density,           ///< rho at the last step
+  f_density,           ///< rho at the last step in small strain; else m_e/V counts
   f_energy,            ///< internal energy
   f_hourglass,         ///< hourglass energy
   f_off,               ///< 1 active, 0 deleted
