@@ -59,7 +59,7 @@ struct SolidTask {
   const SolidConfig* config = nullptr;
   const double* x = nullptr;          ///< #N by 3 positions at t^n
   const double* v = nullptr;          ///< #N by 3 velocities at n - 1/2
-  const std::int32_t* nodes = nullptr;///< (block * nodes_per_element + k) * 8 + l
+  const std::int32_t* offsets = nullptr;///< 3 * node at (block * nodes_per_element + k) * 8 + l
   double* state = nullptr;
   double* slots = nullptr;            ///< layout of SlotLayout, 4 components
   double dt = 0.0;
