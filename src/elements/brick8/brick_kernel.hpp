@@ -84,11 +84,14 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
   const R zero(0.0);
   const double dt = task.dt, inv_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const Lanes<R> state{task.state + static_cast<std::ptrdiff_t>(block) * c.fields * 8 + lane};
-  const std::int32_t* nodes = task.nodes + static_cast<std::ptrdiff_t>(block) * 64 + lane;
+  const std::int32_t* offsets = task.offsets + static_cast<std::ptrdiff_t>(block) * 64 + lane;
 
   // ---- gather
-  Vec<R> x[8];
-  for (int k = 0; k < 8; ++k) x[k] = simd::gather3(task.x, nodes + 8 * k, R());
+  Vec<R> x[8], v[8];
+  for (int k = 0; k < 8; ++k) {
+    x[k] = simd::gather3(task.x, offsets + 8 * k, R());
+    v[k] = simd::gather3(task.v, offsets + 8 * k, R());
+  }
   BrickModes<R> m = brick_modes(x);
   R face = zero;
   Matrix<R> frame{};
@@ -116,8 +119,6 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
   } else if (c.reference_step) {
     face = largest_face(x);
   }
-  Vec<R> v[8];
-  for (int k = 0; k < 8; ++k) v[k] = simd::gather3(task.v, nodes + 8 * k, R());
   BrickModes<R> w = brick_modes(v);
   if constexpr (Corotational) {
     w.xi = apply(frame, w.xi);

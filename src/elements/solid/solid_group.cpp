@@ -135,7 +135,7 @@ void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share
   layout_.blocks = (count + lanes - 1) / lanes;
   const auto padded = static_cast<std::size_t>(layout_.blocks) * lanes;
   const auto n = static_cast<std::size_t>(nodes_per_element_);
-  block_nodes_.assign(padded * n, 0);
+  block_offsets_.assign(padded * n, 0);
   state_.assign(padded * static_cast<std::size_t>(c.fields), 0.0);
   chunks_.resize((static_cast<std::size_t>(layout_.blocks) + blocks_per_chunk - 1) / blocks_per_chunk);
 
@@ -147,7 +147,7 @@ void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share
     for (std::size_t k = 0; k < n; ++k) {
       const Index node = element_nodes_[e * n + k];
       corners[k] = x[static_cast<std::size_t>(node)];
-      block_nodes_[((slot / lanes) * n + k) * lanes + slot % lanes] = node;
+      block_offsets_[((slot / lanes) * n + k) * lanes + slot % lanes] = 3 * node;
     }
     const SolidGeometry g = geometry(corners);
     const auto id = static_cast<Index>(slot);
@@ -199,7 +199,7 @@ GroupResult SolidGroup::step(const StepInput& in, std::span<double> slots, paral
   base.config = &config_;
   base.x = &in.x->x;
   base.v = &in.v->x;
-  base.nodes = block_nodes_.data();
+  base.offsets = block_offsets_.data();
   base.state = state_.data();
   base.slots = slots.data() + layout_.offset;
   base.dt = in.dt;
@@ -240,8 +240,8 @@ ElementOutput SolidGroup::output(Index element) const {
   out.off = at(element, f_off);
   out.internal_energy = at(element, f_energy);
   out.hourglass_energy = at(element, f_hourglass);
-  out.density = at(element, f_density);
-  out.volume = at(element, f_mass) / out.density;
+  out.density = config_.small_strain ? at(element, f_density) : at(element, f_mass) / at(element, f_volume);
+  out.volume = config_.small_strain ? at(element, f_mass) / out.density : at(element, f_volume);
   out.pressure = at(element, f_pressure);
   out.bulk_viscosity = at(element, f_viscosity);
   if (config_.law == 2) out.plastic_min = out.plastic_max = at(element, config_.law_field);

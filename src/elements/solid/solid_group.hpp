@@ -56,7 +56,7 @@ class SolidGroup : public Group {
 
  private:
   SolidKernel kernel_ = nullptr;
-  std::vector<std::int32_t> block_nodes_;
+  std::vector<std::int32_t> block_offsets_;
   std::vector<double> state_;
   std::vector<double> mass_share_;   ///< #E by nodes_per_element; empty = equal
   std::vector<SolidChunk> chunks_;

@@ -138,13 +138,13 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
     delta_volume = old_volume * rate * R(dt);
     mean_volume = old_volume - half * delta_volume;
     out.density = state.get(f_density) - R(c.rho_0 * dt) * rate;
+    state.put(f_density, out.density);
   } else {
     delta_volume = in.volume - old_volume;
     mean_volume = half * (in.volume + old_volume);
-    out.density = simd::select(in.inverse_volume > zero, mass * in.inverse_volume, state.get(f_density));
+    out.density = mass * in.inverse_volume;
     state.put(f_volume, in.volume);
   }
-  state.put(f_density, out.density);
 
   // V^(-1/3) by a third-order iteration from the last value; the volume changes little in a step.
   R y = state.get(f_inverse_length);
@@ -183,11 +183,12 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
 
   // Pressure and bulk viscosity.
   const R mu = out.density * R(1.0 / c.rho_0) - one;
-  out.pressure = simd::max(R(c.p_min), R(c.bulk) * mu);
+  const auto present = in.inverse_volume > zero;  // not a collapsed or inactive element, whose density means nothing
+  const R old_pressure = state.get(f_pressure), old_viscosity = state.get(f_viscosity);
+  out.pressure = simd::select(present, simd::max(R(c.p_min), R(c.bulk) * mu), old_pressure);
   out.compression = simd::max(zero, -rate);
   out.viscosity = out.density * out.length * out.compression *
                   (R(c.qa_squared) * out.length * out.compression + R(c.qb * c.sound));
-  const R old_pressure = state.get(f_pressure), old_viscosity = state.get(f_viscosity);
   state.put(f_pressure, out.pressure);
   state.put(f_viscosity, out.viscosity);
 

@@ -15,7 +15,7 @@ enum SolidField : int {
   f_viscosity,         ///< q, bulk viscous pressure
   f_volume,            ///< V at the last step; the frozen volume in small strain
   f_inverse_length,    ///< V^(-1/3)
-  f_density,           ///< rho at the last step
+  f_density,           ///< rho at the last step in small strain; else m_e/V counts
   f_energy,            ///< internal energy
   f_hourglass,         ///< hourglass energy
   f_off,               ///< 1 active, 0 deleted
@@ -59,7 +59,7 @@ struct SolidTask {
   const SolidConfig* config = nullptr;
   const double* x = nullptr;          ///< #N by 3 positions at t^n
   const double* v = nullptr;          ///< #N by 3 velocities at n - 1/2
-  const std::int32_t* nodes = nullptr;///< (block * nodes_per_element + k) * 8 + l
+  const std::int32_t* offsets = nullptr;///< 3 * node at (block * nodes_per_element + k) * 8 + l
   double* state = nullptr;
   double* slots = nullptr;            ///< layout of SlotLayout, 4 components
   double dt = 0.0;

@@ -24,13 +24,13 @@ ABUT_INLINE void tetra_lanes(const SolidTask& task, std::int32_t block, int lane
   const R zero(0.0);
   const double dt = task.dt, inv_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const Lanes<R> state{task.state + static_cast<std::ptrdiff_t>(block) * c.fields * 8 + lane};
-  const std::int32_t* nodes = task.nodes + static_cast<std::ptrdiff_t>(block) * 32 + lane;
+  const std::int32_t* offsets = task.offsets + static_cast<std::ptrdiff_t>(block) * 32 + lane;
 
   // ---- gather
   Vec<R> x[4], v[4];
   for (int k = 0; k < 4; ++k) {
-    x[k] = simd::gather3(task.x, nodes + 8 * k, R());
-    v[k] = simd::gather3(task.v, nodes + 8 * k, R());
+    x[k] = simd::gather3(task.x, offsets + 8 * k, R());
+    v[k] = simd::gather3(task.v, offsets + 8 * k, R());
   }
   Vec<R> e1 = x[1] - x[0], e2 = x[2] - x[0], e3 = x[3] - x[0];
   if (c.small_strain) {

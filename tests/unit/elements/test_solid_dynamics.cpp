@@ -1,0 +1,175 @@
+// Small explicit runs of solids: frequency of a known mode and the energy balance (numerics.md 1.1, 1.6).
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "solid_fixture.hpp"
+
+namespace abut::elements::test {
+namespace {
+
+/// Six tetrahedra per brick around the diagonal 0-6.
+std::vector<std::vector<Index>> split(const std::vector<std::vector<Index>>& bricks) {
+  std::vector<std::vector<Index>> out;
+  constexpr int ring[7] = {1, 2, 3, 7, 4, 5, 1};
+  for (const auto& b : bricks)
+    for (int i = 0; i < 6; ++i)
+      out.push_back({b[0], b[static_cast<std::size_t>(ring[i])], b[static_cast<std::size_t>(ring[i + 1])], b[6]});
+  return out;
+}
+
+/// Leap-frog step with constant h: v += h a, x += h v, forces. v holds v(n+1/2) afterwards.
+/// @return kinetic energy at t^n, 1/2 m v(n-1/2).v(n+1/2)
+double leap(SolidBody& body, double h, bool first = false) {
+  double kinetic = 0.0;
+  for (std::size_t i = 0; i < body.x.size(); ++i) {
+    const Vec3 before = body.v[i];
+    body.v[i] += (-(first ? 0.5 : 1.0) * h / body.m[i]) * body.f[i];
+    kinetic += 0.5 * body.m[i] * dot(before, body.v[i]);
+  }
+  body.advance(h);
+  return kinetic;
+}
+
+// Free-free bar, nu = 0, first longitudinal mode. cos(pi x/L) at the nodes is the discrete eigenvector of a chain of bricks; its
+// frequency in space and time: 2/h sin(omega h/2) = 2c/dx sin(pi dx/(2L)), c = sqrt(E/rho); the exact bar has omega = pi c/L.
+TEST(SolidDynamics, LongitudinalModeOfABar) {
+  for (const int iframe : {1, 2}) {
+    const int n = 20;
+    Box box(n, 1, 1, {1, 1, 1});
+    SolidSetup s;
+    s.law = model::LawElastic{210.0, 0.0};
+    s.property.iframe = iframe;
+    s.property.qa = s.property.qb = 0.0;
+    SolidBody body(box.nodes, box.bricks, s);
+    const auto start = body.x;
+    const auto shape = [n](double x) { return std::cos(std::numbers::pi * x / n); };
+    body.set_velocity([&](const Vec3& x) { return Vec3{1e-6 * shape(x.x), 0, 0}; });
+    const double c = std::sqrt(210.0 / 7.8), h = 0.5 / c;
+    body.step(0.0);
+    double q[3] = {0, 0, 0};
+    const auto amplitude = [&] {
+      double a = 0.0;
+      for (std::size_t i = 0; i < start.size(); ++i) a += body.m[i] * shape(start[i].x) * (body.x[i].x - start[i].x);
+      return a;
+    };
+    leap(body, h, true);
+    for (int i = 0; i < 20; ++i) {
+      q[0] = q[1];
+      q[1] = q[2];
+      leap(body, h);
+      q[2] = amplitude();
+    }
+    const double discrete = 2 / h * std::asin(h * c * std::sin(std::numbers::pi / (2 * n)));
+    const double measured = std::acos((q[0] + q[2]) / (2 * q[1])) / h;
+    EXPECT_NEAR(measured / discrete, 1.0, 1e-5);
+    EXPECT_NEAR(measured / (std::numbers::pi * c / n), 1.0, 1e-3);
+  }
+}
+
+struct Balance {
+  double initial, worst, internal, hourglass;
+};
+
+/// Random motion of a block; worst |IE + HE + KE - KE(0)| over the run.
+Balance balance(const SolidSetup& setup, bool tetra, double amplitude, double h, int steps) {
+  Random random(31);
+  Box box(3, 3, 3, {1, 1, 1});
+  for (Vec3& p : box.nodes) p += 0.1 * random.vec();
+  SolidBody body(box.nodes, tetra ? split(box.bricks) : box.bricks, setup);
+  // A smooth motion with all kinds of strain.
+  body.set_velocity([&](const Vec3& x) {
+    return amplitude * Vec3{std::sin(x.x + 2 * x.y), std::cos(1.5 * x.z - x.x), std::sin(x.y * x.z)};
+  });
+  Balance out{0, 0, 0, 0};
+  for (std::size_t i = 0; i < body.x.size(); ++i) out.initial += 0.5 * body.m[i] * squared_norm(body.v[i]);
+  body.step(0.0);
+  leap(body, h, true);
+  for (int i = 0; i < steps; ++i) {
+    const GroupResult now = body.result;
+    const double kinetic = leap(body, h);
+    out.worst = std::max(out.worst, std::abs(kinetic + now.internal_energy + now.hourglass_energy - out.initial));
+    out.internal = std::max(out.internal, now.internal_energy);
+    out.hourglass = std::max(out.hourglass, now.hourglass_energy);
+  }
+  return out;
+}
+
+// Internal (with bulk viscosity) + hourglass + kinetic energy stays constant over 3000 steps: brick in both frames and both hourglass forms, elastic
+// and plastic, and tetrahedra; strains of 1e-3 to 1e-2.
+TEST(SolidDynamics, EnergyBalance) {
+  model::LawJohnsonCook jc;
+  jc.young = 210.0;
+  jc.poisson = 0.3;
+  jc.a = 0.3;
+  jc.b = 0.4;
+  jc.n = 0.5;
+  for (const bool tetra : {false, true}) {
+    for (const int isolid : {1, 2}) {
+      for (const int iframe : {1, 2}) {
+        for (const bool yields : {false, true}) {
+          if (tetra && (isolid == 2 || iframe == 2)) continue;
+          SolidSetup s;
+          if (yields) s.law = jc;
+          s.property.isolid = isolid;
+          s.property.iframe = iframe;
+          const Balance b = balance(s, tetra, 0.02, 0.01, 3000);
+          EXPECT_LT(b.worst, 2e-3 * b.initial) << tetra << isolid << iframe << yields;
+          EXPECT_GT(b.internal, 0.3 * b.initial);
+          if (!tetra) { EXPECT_GT(b.hourglass, 1e-3 * b.initial); }
+        }
+      }
+    }
+  }
+}
+
+// Halving the step of the default profile divides the error of the balance by about four at fixed (small) amplitude.
+TEST(SolidDynamics, EnergyErrorIsSecondOrder) {
+  SolidSetup s;
+  s.property.qa = s.property.qb = 0.0;
+  const Balance coarse = balance(s, false, 1e-5, 0.02, 200), fine = balance(s, false, 1e-5, 0.01, 400);
+  EXPECT_GT(coarse.worst / fine.worst, 3.0);
+  EXPECT_LT(coarse.worst / fine.worst, 5.0);
+}
+
+// Linear momentum is constant to rounding.
+TEST(SolidDynamics, MomentumIsConserved) {
+  Random random(32);
+  Box box(3, 2, 2, {1, 1, 1});
+  for (Vec3& p : box.nodes) p += 0.1 * random.vec();
+  SolidBody body(box.nodes, box.bricks, SolidSetup{});
+  for (Vec3& v : body.v) v = 0.1 * random.vec();
+  const auto momentum = [&body] { Vec3 p; for (std::size_t i = 0; i < body.v.size(); ++i) p += body.m[i] * body.v[i]; return p; };
+  const Vec3 before = momentum();
+  body.step(0.0);
+  leap(body, 0.02, true);
+  for (int i = 0; i < 500; ++i) leap(body, 0.02);
+  EXPECT_LT(norm(momentum() - before), 1e-12);
+  const PartSums sums = body.group->part_sums(body.v, body.v);
+  EXPECT_LT(norm(sums.momentum - before), 1e-12);
+}
+
+// The bound step is stable, and 1.15 times the exact limit is not: growth of a tiny random motion of a single brick.
+TEST(SolidDynamics, StepLimitIsTheStabilityLimit) {
+  for (const double factor : {0.98, 1.15}) {
+    SolidSetup s;
+    Random random(33);
+    SolidBody body(unit_cube(), {{0, 1, 2, 3, 4, 5, 6, 7}}, s);
+    for (Vec3& v : body.v) v = 1e-9 * random.vec();
+    const double h = factor * body.step(0.0).step / 0.9;
+    leap(body, h, true);
+    double largest = 0.0;
+    for (int i = 0; i < 400 && largest < 1e-5; ++i) {
+      leap(body, h);
+      for (const Vec3& v : body.v) largest = std::max(largest, norm(v));
+    }
+    if (factor < 1.0) {
+      EXPECT_LT(largest, 1e-8);
+    } else {
+      EXPECT_GT(largest, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace abut::elements::test
