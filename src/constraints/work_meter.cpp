@@ -9,7 +9,7 @@ namespace abut::constraints {
 double ledger_kinetic_energy(const state::State& state) {
   const double hb = state.times.h_bar;
   double sum = 0.0;
-  for (std::size_t i = 0; i < state.x.size(); ++i) {
+  for (std::size_t i = 0; i < state.mass.size(); ++i) {
     sum += 0.5 * state.mass[i] * dot(state.v[i], state.v[i] + hb * state.a[i]);
     sum += 0.5 * state.inertia[i] * dot(state.w[i], state.w[i] + hb * state.alpha[i]);
   }

@@ -32,8 +32,12 @@ struct Profile {
   /// reaction acts one cycle later on the mass of wall and impacted nodes together.
   enum class MovingWall { same_cycle, reference };
 
+  /// External work: the exact discrete work of loads and constraints, or as the reference program books it.
+  enum class ExternalWork { discrete, booked };
+
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
+  ExternalWork external_work = ExternalWork::discrete;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
   ShellRotation shell_rotation = ShellRotation::exact;
@@ -49,6 +53,7 @@ struct Profile {
     Profile p;
     p.element_step = ElementStep::reference;
     p.system_step = SystemStep::reference;
+    p.external_work = ExternalWork::booked;
     p.rotational_hourglass = RotationalHourglass::reference;
     p.hourglass_energy = HourglassEnergy::end_of_step;
     p.shell_rotation = ShellRotation::reference;

@@ -48,22 +48,13 @@ void Cycle::erode() {
 }
 
 void Cycle::release_boundary_conditions() {
-  std::fill(released_.begin(), released_.end(), std::uint8_t{0});
+  if (!options_.profile.reference_contact) boundary_.restore_all();  // the reference never gives a condition back
   for (const init::RunInterface& i : interfaces_) {
     const auto& ibc = model_.interfaces[static_cast<std::size_t>(i.model_index)].ibc;
     if (!ibc[0] && !ibc[1] && !ibc[2]) continue;
     for (const Index node : i.contact.nodes_in_contact()) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (ibc[k]) released_[3 * static_cast<std::size_t>(node) + k] = 1;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < state_.mass.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      if (released_[3 * i + static_cast<std::size_t>(k)] != 0) {
-        boundary_.release(static_cast<Index>(i), k);
-      } else if (!options_.profile.reference_contact) {
-        boundary_.restore(static_cast<Index>(i), k);  // the reference never gives it back
+      for (int k = 0; k < 3; ++k) {
+        if (ibc[static_cast<std::size_t>(k)]) boundary_.release(node, k);
       }
     }
   }
@@ -80,8 +71,10 @@ void Cycle::book_interfaces() {
 
 void Cycle::close_balance() {
   state::Balance& b = balance_;
-  const double constraint_work = loads_.ledger_work(state_) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
-                                 imposed_.ledger_work(state_) + walls_.ledger_work(state_) + bodies_.ledger_work(state_);
+  const double external = loads_.ledger_work(state_) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
+                          imposed_.ledger_work(state_) + walls_.ledger_work(state_);
+  b.extw += options_.profile.external_work == Profile::ExternalWork::discrete ? external : booked_work_;
+  const double constraint_work = external + bodies_.ledger_work(state_);
   const double t_star = constraints::ledger_kinetic_energy(state_) + bodies_.ledger_correction(state_);
   const double ledger = ledger_.close(state_, t_star, constraint_work);
   const KineticSums kinetic = ledger_.kinetic(state_, pool_);

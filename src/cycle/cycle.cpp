@@ -36,15 +36,15 @@ void Cycle::advance(Sink& sink) {
     walls_.add_reaction(state_);                // 12
     scaled_energy_ += time_step_->scale_masses(state_);  // 13
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
-    balance_.extw += loads_.book_work(state_);  // 15
+    booked_work_ = loads_.book_work(state_);    // 15
     accelerate();                               // 16
     gravities_.apply(state_);                   // 17
-    balance_.extw += gravities_.book_work(state_);
+    booked_work_ += gravities_.book_work(state_);
     boundary_.apply(state_);                    // 18
     imposed_.apply(state_);                     // 20
-    balance_.extw += imposed_.book_work(state_);
+    booked_work_ += imposed_.book_work(state_);
     walls_.apply(state_);                       // 21
-    balance_.extw += walls_.work();
+    booked_work_ += walls_.work();
     boundary_.apply(state_);                    // 22
     bodies_.scatter(state_);                    // 23
     book_interfaces();

@@ -88,7 +88,6 @@ class Cycle {
   std::vector<double> contact_stiffness_;      // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
   std::vector<double> contact_area_;
-  std::vector<std::uint8_t> released_;         // #N by 3: boundary condition lifted by IBC now
   bool releases_ = false;                      // some interface asks for IBC
 
   std::unique_ptr<TimeStep> time_step_;
@@ -100,6 +99,7 @@ class Cycle {
   bool begun_ = false;
   bool eroded_ = false;
   double scaled_energy_ = 0.0;
+  double booked_work_ = 0.0;   // external work of this cycle as the reference program books it
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;

@@ -31,7 +31,6 @@ KineticSums Ledger::kinetic(const state::State& s, parallel::ThreadPool& pool) {
 double Ledger::close(const state::State& s, double kinetic, double constraint_work) {
   // Internal forces are subtracted from the nodes: their work carries a minus sign.
   works_ += constraint_work - elements_.settle(s, s.f_internal, s.m_internal) + contact_.settle(s, s.f_contact);
-  if (s.times.cycle == 0) start_ = kinetic - works_;
   return kinetic - start_ - works_;
 }
 

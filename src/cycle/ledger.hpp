@@ -25,6 +25,9 @@ class Ledger {
   /// Kinetic sums over all nodes, in a fixed order.
   [[nodiscard]] KineticSums kinetic(const state::State& s, parallel::ThreadPool& pool);
 
+  /// Before the first cycle: T* of the start.
+  void open(double kinetic) { start_ = kinetic; }
+
   /// Closes the cycle, everything final. @param kinetic T* of the structure. @param constraint_work bookings of loads and
   /// constraints. @return T* minus its start minus all works so far: zero to rounding
   double close(const state::State& s, double kinetic, double constraint_work);

@@ -28,9 +28,9 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       bodies_(model, options.profile),
       loads_(model, curves_, axes_),
       gravities_(model, curves_, axes_, bodies_),
-      boundary_(model, axes_, bodies_),
+      boundary_(model, axes_, bodies_, options.profile),
       imposed_(model, curves_, axes_, bodies_),
-      walls_(model, bodies_),
+      walls_(model, bodies_, boundary_, imposed_, options.profile),
       sections_(model, groups_) {
   const auto n = static_cast<std::size_t>(model.node_count());
   contact_stiffness_.assign(n, 0.0);
@@ -53,9 +53,9 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
     if (!releases_ && boundary_.fixed(node, 0) && boundary_.fixed(node, 1) && boundary_.fixed(node, 2)) free_translation[i] = 0;
     if (boundary_.fixed(node, 3) && boundary_.fixed(node, 4) && boundary_.fixed(node, 5)) free_rotation[i] = 0;
   }
-  released_.assign(releases_ ? 3 * n : 0, 0);
   time_step_ = std::make_unique<TimeStep>(model, options.profile, has_two_sided_interface(model), std::move(free_translation),
                                           std::move(free_rotation));
+  ledger_.open(constraints::ledger_kinetic_energy(state_) + bodies_.ledger_correction(state_));
   next_animation_ = model.controls.animation_start;
 }
 
