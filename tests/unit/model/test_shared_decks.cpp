@@ -73,5 +73,24 @@ TEST(SharedDecks, AreReadWithoutAnErrorAndCompletely) {
   EXPECT_GT(decks, 0);
 }
 
+TEST(ExampleDeck, TwoBlocksHasTheSurfacesItsTextSays) {
+  Reading r;
+  deck::DeckPair pair = deck::read(std::filesystem::path(ABUT_SOURCE_DIR) / "examples/decks/twoblocks/twoblocks_0000.rad", r.diagnostics);
+  EXPECT_TRUE(pair.has_engine);
+  r.deck = std::move(pair.starter);
+  r.attach();
+  read_control(r.context);
+  check_keywords(r.context);
+  read_mesh(r.context);
+  read_sets(r.context);
+  EXPECT_EQ(r.errors(), std::vector<std::string>{});
+  EXPECT_EQ(r.model.node_id.size(), 16u);
+  EXPECT_EQ(r.model.bricks.size(), 2);
+  ASSERT_EQ(r.model.surfaces.size(), 2u);
+  for (const Surface& s : r.model.surfaces) EXPECT_EQ(s.segments.size(), 6u);
+  EXPECT_EQ(r.model.node_groups[0].nodes.size(), 8u);
+  EXPECT_EQ(r.model.units.length, 1e-3);
+}
+
 }  // namespace
 }  // namespace abut::model::testing
