@@ -26,8 +26,8 @@ struct Card {
 
 /// One keyword line and the data lines below it.
 struct Block {
-  std::string_view keyword_line;           ///< as typed
-  std::vector<std::string_view> words;     ///< "/INTER/TYPE3/1/7" -> {"INTER", "TYPE3", "1", "7"}, blanks stripped
+  std::string_view keyword_line;        ///< as typed
+  std::vector<std::string_view> words;  ///< "/INTER/TYPE3/1/7" -> {"INTER", "TYPE3", "1", "7"}, blanks stripped
   std::int32_t file = 0;
   std::int32_t line = 0;
   /// Data lines including title cards and blank lines inside the block; comments and blank lines at the end removed.

@@ -44,17 +44,11 @@ bool starts_with_word(std::string_view line, std::string_view upper_case) {
   return line.size() >= upper_case.size() && same_word(line.substr(0, upper_case.size()), upper_case);
 }
 
-bool is_include(std::string_view line) {
-  return starts_with_word(line, "#INCLUDE") && line.size() > 8 && is_blank(line[8]);
-}
+bool is_include(std::string_view line) { return starts_with_word(line, "#INCLUDE") && line.size() > 8 && is_blank(line[8]); }
 
-bool is_end_of_data(std::string_view line) {
-  return starts_with_word(line, "#ENDDATA") && trimmed(line).size() == 8;
-}
+bool is_end_of_data(std::string_view line) { return starts_with_word(line, "#ENDDATA") && trimmed(line).size() == 8; }
 
-bool is_header(std::string_view line) {
-  return starts_with_word(line, "#RADIOSS") || starts_with_word(line, "# RADIOSS");
-}
+bool is_header(std::string_view line) { return starts_with_word(line, "#RADIOSS") || starts_with_word(line, "# RADIOSS"); }
 
 bool is_comment(std::string_view line) { return !line.empty() && (line.front() == '#' || line.front() == '$'); }
 
@@ -177,7 +171,8 @@ void StarterScanner::open_block(std::string_view text, int file, int line) {
   block.file = file;
   block.line = line;
   if (block.words.empty()) {
-    diagnostics_.error("deck.bad_keyword", line_place(deck_, file, line), "a keyword line holds nothing but '/': a keyword such as /NODE is needed");
+    diagnostics_.error("deck.bad_keyword", line_place(deck_, file, line),
+                       "a keyword line holds nothing but '/': a keyword such as /NODE is needed");
     skipping_ = true;
     return;
   }

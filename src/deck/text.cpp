@@ -9,9 +9,7 @@ namespace {
 /// Length of the UTF-8 sequence at s[i] if it is well formed (RFC 3629, table 3-7 of Unicode), else 0.
 std::size_t utf8_length(std::string_view s, std::size_t i) {
   const auto byte = [&](std::size_t k) { return k < s.size() ? static_cast<unsigned char>(s[k]) : 0U; };
-  const auto trail = [&](std::size_t k, unsigned low = 0x80U, unsigned high = 0xBFU) {
-    return byte(k) >= low && byte(k) <= high;
-  };
+  const auto trail = [&](std::size_t k, unsigned low = 0x80U, unsigned high = 0xBFU) { return byte(k) >= low && byte(k) <= high; };
   const unsigned b = byte(i);
   if (b < 0x80U) return 1;
   if (b >= 0xC2U && b <= 0xDFU) return trail(i + 1) ? 2 : 0;
@@ -42,8 +40,7 @@ bool is_blank_card(std::string_view s) {
 }
 
 bool same_word(std::string_view word, std::string_view upper_case) {
-  return std::equal(word.begin(), word.end(), upper_case.begin(), upper_case.end(),
-                    [](char a, char b) { return upper(a) == b; });
+  return std::equal(word.begin(), word.end(), upper_case.begin(), upper_case.end(), [](char a, char b) { return upper(a) == b; });
 }
 
 std::string to_upper(std::string_view s) {

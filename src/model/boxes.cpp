@@ -16,7 +16,8 @@ constexpr int deepest_nesting = 100;
 
 Vec3 read_point(Context& c, BlockReader& r, Index node, std::array<std::string_view, 3> names) {
   r.next_card();
-  const Vec3 typed{r.real({1, 20}, names[0], dim::length), r.real({21, 40}, names[1], dim::length), r.real({41, 60}, names[2], dim::length)};
+  const Vec3 typed{r.real({1, 20}, names[0], dim::length), r.real({21, 40}, names[1], dim::length),
+                   r.real({41, 60}, names[2], dim::length)};
   return node == no_index ? typed : c.model->node_x[static_cast<std::size_t>(node)];
 }
 
@@ -59,7 +60,8 @@ void Boxes::read(Context& c, const deck::Block& b) {
       if (skew != no_index) box.axes = c.model->skews[static_cast<std::size_t>(skew)].axes;
     } else {
       box.diameter = r.real({31, 50}, "Diameter", dim::length);
-      if (box.diameter <= 0.0) r.error("model.box_size", {31, 50}, "Diameter", fmt::format("the diameter is {:g}: it must be positive", box.diameter));
+      if (box.diameter <= 0.0)
+        r.error("model.box_size", {31, 50}, "Diameter", fmt::format("the diameter is {:g}: it must be positive", box.diameter));
     }
     box.p1 = read_point(c, r, n1, {"X1", "Y1", "Z1"});
     if (box.kind != Box::Kind::sphere) box.p2 = read_point(c, r, n2, {"X2", "Y2", "Z2"});

@@ -26,7 +26,8 @@ Model build(const deck::DeckPair& deck, Diagnostics& diagnostics) {
   } else {
     Place place;
     place.file = deck.starter.files.front();
-    diagnostics.warning("model.no_engine", std::move(place), "no Engine deck NAME_0001.rad beside it: the model can be checked but not run");
+    diagnostics.warning("model.no_engine", std::move(place),
+                        "no Engine deck NAME_0001.rad beside it: the model can be checked but not run");
   }
   validate(c);
   return model;

@@ -49,11 +49,13 @@ std::array<bool, 3> read_units(BlockReader& r, Units& units, std::string_view pr
 
 void set_version(Context& c, Id version, const Place& place) {
   if (version < 0 || version > 9999) {
-    c.diagnostics->error("model.bad_version", place, fmt::format("{} is not a format version: 41, 44, 51, 90 ... 140, 2017 ... 2026", version));
+    c.diagnostics->error("model.bad_version", place,
+                         fmt::format("{} is not a format version: 41, 44, 51, 90 ... 140, 2017 ... 2026", version));
     version = newest_version;
   }
   if (version > newest_version) {
-    c.diagnostics->warning("model.new_version", place, fmt::format("version {} is newer than {}: read with the layout of {}", version, newest_version, newest_version));
+    c.diagnostics->warning("model.new_version", place,
+                           fmt::format("version {} is newer than {}: read with the layout of {}", version, newest_version, newest_version));
   }
   c.model->version = version == 0 ? newest_version : static_cast<int>(version);
 }
@@ -90,7 +92,8 @@ void read_old_header(Context& c) {
     return;
   }
   c.model->version = newest_version;
-  c.diagnostics->warning("model.no_begin", place, fmt::format("no /BEGIN block: version {} and units kg, m, s are assumed", newest_version));
+  c.diagnostics->warning("model.no_begin", place,
+                         fmt::format("no /BEGIN block: version {} and units kg, m, s are assumed", newest_version));
 }
 
 /// "/UNIT/LENGTH/mm" (versions up to 90) or "/UNIT/id".
@@ -196,9 +199,7 @@ void read_control(Context& c) {
   for (const deck::Block& b : blocks) {
     if (b.is(0, "UNIT")) read_unit(c, b);
   }
-  if (c.model->name.empty() && !c.deck->files.empty()) {
-    c.model->name = std::filesystem::path(c.deck->files.front()).stem().string();
-  }
+  if (c.model->name.empty() && !c.deck->files.empty()) { c.model->name = std::filesystem::path(c.deck->files.front()).stem().string(); }
   bool shell_defaults = false;
   bool solid_defaults = false;
   bool title = false;

@@ -25,7 +25,8 @@ class NodeLookup {
     for (std::size_t k = 0; k < ids.size(); ++k) dense_[static_cast<std::size_t>(ids[k] - first_)] = static_cast<Index>(k);
   }
   [[nodiscard]] Index find(Id id) const {
-    if (!dense_.empty()) return id >= first_ && id - first_ < static_cast<Id>(dense_.size()) ? dense_[static_cast<std::size_t>(id - first_)] : no_index;
+    if (!dense_.empty())
+      return id >= first_ && id - first_ < static_cast<Id>(dense_.size()) ? dense_[static_cast<std::size_t>(id - first_)] : no_index;
     const auto found = table_.find(id);
     return found == table_.end() ? no_index : found->second;
   }
@@ -117,7 +118,8 @@ class ElementReader {
                                         solid ? "solids" : "shells", solid ? "/PROP/SOLID" : "/PROP/SHELL"));
     }
     if (!empty && fits && c_.part_lacks_material[static_cast<std::size_t>(part)]) {
-      c_.diagnostics->error("model.missing_material", r.place(), fmt::format("part {} has elements but no material: give it a mat_ID", p.id));
+      c_.diagnostics->error("model.missing_material", r.place(),
+                            fmt::format("part {} has elements but no material: give it a mat_ID", p.id));
     }
   }
 
@@ -133,7 +135,10 @@ class ElementReader {
         if (!b.cards.empty()) check_part(r, part, family != Family::shell && family != Family::sh3n);
       }
     }
-    const std::size_t count = family == Family::sh3n ? 3 : family == Family::shell || family == Family::tetra ? 4 : family == Family::penta ? 6 : 8;
+    const std::size_t count = family == Family::sh3n                               ? 3
+                              : family == Family::shell || family == Family::tetra ? 4
+                              : family == Family::penta                            ? 6
+                                                                                   : 8;
     first_turned_ = 0;
     turned_ = 0;
     for (const deck::Card& card : b.cards) {
@@ -141,7 +146,8 @@ class ElementReader {
       if (deck::field_text(card.text, {1, 100}).empty()) continue;
       const Id id = r.integer({1, 10}, "id");
       if (id <= 0) {
-        if (deck::parse_integer(r.text({1, 10}))) r.error("deck.bad_id", {1, 10}, "id", fmt::format("{} is not an id: a positive integer is needed", id));
+        if (deck::parse_integer(r.text({1, 10})))
+          r.error("deck.bad_id", {1, 10}, "id", fmt::format("{} is not an id: a positive integer is needed", id));
         continue;
       }
       std::array<Index, 8> nodes;
@@ -149,16 +155,27 @@ class ElementReader {
       const std::size_t given = read_node_fields(r, family, id, count, nodes);
       if (given == 0 || part == no_index) continue;
       switch (family) {
-        case Family::shell: add_shell(r, id, part, nodes, b, card); break;
-        case Family::sh3n: add_sh3n(r, id, part, nodes, b, card); break;
-        case Family::tetra: add_tetra(r, id, part, nodes, b, card); break;
-        case Family::penta: add_brick(r, id, part, nodes, 6, b, card); break;
-        case Family::brick: add_brick(r, id, part, nodes, given, b, card); break;
+        case Family::shell:
+          add_shell(r, id, part, nodes, b, card);
+          break;
+        case Family::sh3n:
+          add_sh3n(r, id, part, nodes, b, card);
+          break;
+        case Family::tetra:
+          add_tetra(r, id, part, nodes, b, card);
+          break;
+        case Family::penta:
+          add_brick(r, id, part, nodes, 6, b, card);
+          break;
+        case Family::brick:
+          add_brick(r, id, part, nodes, given, b, card);
+          break;
       }
     }
     if (turned_ > 0) {
-      c_.diagnostics->warning("model.negative_volume", r.place(),
-                              fmt::format("{} elements with negative volume were turned inside out, the first is {}", turned_, first_turned_));
+      c_.diagnostics->warning(
+          "model.negative_volume", r.place(),
+          fmt::format("{} elements with negative volume were turned inside out, the first is {}", turned_, first_turned_));
     }
   }
 
@@ -193,7 +210,9 @@ class ElementReader {
 
   double read_thickness(BlockReader& r) {
     const double t = r.real({81, 100}, "Thick", dim::length);
-    if (t < 0.0) r.error("model.negative_thickness", {81, 100}, "Thick", fmt::format("{:g} is negative: a thickness is positive, or 0 for that of the property", t));
+    if (t < 0.0)
+      r.error("model.negative_thickness", {81, 100}, "Thick",
+              fmt::format("{:g} is negative: a thickness is positive, or 0 for that of the property", t));
     return std::max(t, 0.0);
   }
 
@@ -201,7 +220,8 @@ class ElementReader {
     const std::array<Vec3, 4> p{x(n[0]), x(n[1]), x(n[2]), x(n[3])};
     const double size = std::max(squared_norm(p[2] - p[0]), squared_norm(p[3] - p[1]));
     if (facet_area(p) > flat * size) return true;
-    r.error("model.zero_area", {11, 50}, "n1-n4", fmt::format("element {} has no area: its nodes must be distinct and not on one line", id));
+    r.error("model.zero_area", {11, 50}, "n1-n4",
+            fmt::format("element {} has no area: its nodes must be distinct and not on one line", id));
     return false;
   }
 
@@ -233,7 +253,8 @@ class ElementReader {
   }
 
   void report_zero_volume(BlockReader& r, Id id) {
-    r.error("model.zero_volume", {11, 90}, "n1-n8", fmt::format("element {} has no volume: its nodes must not lie in one plane or coincide", id));
+    r.error("model.zero_volume", {11, 90}, "n1-n8",
+            fmt::format("element {} has no volume: its nodes must not lie in one plane or coincide", id));
   }
 
   /// Orders the four nodes so that the volume is positive; false: no volume.

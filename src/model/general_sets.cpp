@@ -30,9 +30,11 @@ void SetReader::apply_clause(BlockReader& r, std::string_view key, const std::ve
   const std::string_view kind = key.substr(0, underscore);
   const std::optional<Action> action = action_of(underscore == std::string_view::npos ? std::string_view{} : key.substr(underscore));
   const auto refuse = [&] {
-    r.error("model.set_clause", key_columns, "KEY",
-            fmt::format("clause '{}' is not supported: NODE, PART, SUBS, SHELL, SH3N, SOLID, SEG, SET and ALL are, with the suffixes _D, _O, _A and _E",
-                        deck::printable(key)));
+    r.error(
+        "model.set_clause", key_columns, "KEY",
+        fmt::format(
+            "clause '{}' is not supported: NODE, PART, SUBS, SHELL, SH3N, SOLID, SEG, SET and ALL are, with the suffixes _D, _O, _A and _E",
+            deck::printable(key)));
   };
   if (!action) return refuse();
   const bool removing = *action == Action::remove;

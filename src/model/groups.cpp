@@ -42,7 +42,8 @@ std::vector<Index> SetReader::parts_of_subset(Id subset) const {
   for (std::vector<Id> open{subset}; !open.empty();) {
     const Id current = open.back();
     open.pop_back();
-    if (const auto own = subset_parts_.find(current); own != subset_parts_.end()) parts.insert(parts.end(), own->second.begin(), own->second.end());
+    if (const auto own = subset_parts_.find(current); own != subset_parts_.end())
+      parts.insert(parts.end(), own->second.begin(), own->second.end());
     if (const auto children = subset_children_.find(current); children != subset_children_.end()) {
       for (const Id child : children->second) {
         if (seen.insert(child).second) open.push_back(child);
@@ -88,7 +89,8 @@ std::optional<SetReader::SignedParts> SetReader::parts_of(BlockReader& r, std::s
   return parts;
 }
 
-void SetReader::add_ranges(BlockReader& r, bool triples, const std::vector<std::pair<const std::vector<Id>*, Index>>& tables, Members& out) {
+void SetReader::add_ranges(BlockReader& r, bool triples, const std::vector<std::pair<const std::vector<Id>*, Index>>& tables,
+                           Members& out) {
   const auto add = [&](Id first, Id last, Id step) {
     for (const auto& [ids, offset] : tables) {
       for (auto it = std::lower_bound(ids->begin(), ids->end(), first); it != ids->end() && *it <= last; ++it) {
@@ -106,7 +108,8 @@ void SetReader::add_ranges(BlockReader& r, bool triples, const std::vector<std::
       if (first == 0 && last == 0) continue;
       if (last == 0) last = first;
       if (first < 0 || last < first) {
-        r.error("model.bad_range", last_columns, "last", fmt::format("the range {} to {} is empty: it goes from a smaller to a larger id", first, last));
+        r.error("model.bad_range", last_columns, "last",
+                fmt::format("the range {} to {} is empty: it goes from a smaller to a larger id", first, last));
         continue;
       }
       if (triples && step < 0) {
@@ -260,9 +263,11 @@ void SetReader::evaluate_node_group(Item& item) {
     for (const Index p : parts->plus) append_nodes_of_part(p, plus);
     for (const Index p : parts->minus) append_nodes_of_part(p, minus);
   } else {
-    c_.diagnostics->error("model.unknown_type", r.place(),
-                          fmt::format("type '{}' of /GRNOD is not supported: NODE, GENE, GEN_INCR, PART, SUBSET, MAT, PROP, GRNOD, GRSHEL, GRSH3N, "
-                                      "GRBRIC, SURF and BOX are", deck::printable(item.block->word(1))));
+    c_.diagnostics->error(
+        "model.unknown_type", r.place(),
+        fmt::format("type '{}' of /GRNOD is not supported: NODE, GENE, GEN_INCR, PART, SUBSET, MAT, PROP, GRNOD, GRSHEL, GRSH3N, "
+                    "GRBRIC, SURF and BOX are",
+                    deck::printable(item.block->word(1))));
     return;
   }
   make_set(plus);
@@ -278,7 +283,8 @@ void SetReader::evaluate_element_group(Item& item) {
   const std::string type = deck::to_upper(item.block->word(1));
   Members plus;
   Members minus;
-  if (type == element_word(family) || (type == "SHELL" && family == SetFamily::grshel) || (type == "BRICK" && family == SetFamily::grbric)) {
+  if (type == element_word(family) || (type == "SHELL" && family == SetFamily::grshel) ||
+      (type == "BRICK" && family == SetFamily::grbric)) {
     std::vector<Id> missing;
     const SignedIds ids = signed_ids(r, "elem_ID");
     for (const bool removing : {false, true}) {
@@ -304,9 +310,10 @@ void SetReader::evaluate_element_group(Item& item) {
     for (const Index p : parts->plus) plus.insert(plus.end(), elements_of_part(family, p).begin(), elements_of_part(family, p).end());
     for (const Index p : parts->minus) minus.insert(minus.end(), elements_of_part(family, p).begin(), elements_of_part(family, p).end());
   } else {
-    c_.diagnostics->error("model.unknown_type", r.place(),
-                          fmt::format("type '{}' of {} is not supported: {}, GENE, GEN_INCR, PART, SUBSET, MAT, PROP, {}, BOX and BOX2 are",
-                                      deck::printable(item.block->word(1)), family_name(family), element_word(family), family_name(family).substr(1)));
+    c_.diagnostics->error(
+        "model.unknown_type", r.place(),
+        fmt::format("type '{}' of {} is not supported: {}, GENE, GEN_INCR, PART, SUBSET, MAT, PROP, {}, BOX and BOX2 are",
+                    deck::printable(item.block->word(1)), family_name(family), element_word(family), family_name(family).substr(1)));
     return;
   }
   make_set(plus);

@@ -25,7 +25,8 @@ void read_density(BlockReader& r, Material& m) {
   m.reference_density = r.real({21, 40}, "RHO_0", dim::density);
   if (m.density <= 0.0) r.error("model.density", {1, 20}, "RHO_I", fmt::format("the density is {:g}: it must be positive", m.density));
   if (m.reference_density < 0.0) {
-    r.error("model.density", {21, 40}, "RHO_0", fmt::format("the reference density is {:g}: it must be positive, or 0 for RHO_I", m.reference_density));
+    r.error("model.density", {21, 40}, "RHO_0",
+            fmt::format("the reference density is {:g}: it must be positive, or 0 for RHO_I", m.reference_density));
   }
   if (m.reference_density == 0.0) m.reference_density = m.density;
 }
@@ -37,7 +38,8 @@ void read_elasticity(BlockReader& r, double& young, double& poisson, double lowe
   poisson = r.real({21, 40}, "nu");
   if (young <= 0.0) r.error("model.young", {1, 20}, "E", fmt::format("Young's modulus is {:g}: it must be positive", young));
   if (!(poisson >= lowest && poisson < 0.5)) {
-    r.error("model.poisson", {21, 40}, "nu", fmt::format("Poisson's ratio is {:g}: it must be at least {:g} and below 0.5", poisson, lowest));
+    r.error("model.poisson", {21, 40}, "nu",
+            fmt::format("Poisson's ratio is {:g}: it must be at least {:g} and below 0.5", poisson, lowest));
     poisson = 0.0;
   }
 }
@@ -75,7 +77,8 @@ void read_void(BlockReader& r, Material& m) {
 /// a, b, n from yield stress, ultimate engineering stress and strain (numerics.md 5.2.2).
 void derive_hardening(BlockReader& r, LawJohnsonCook& law, double ultimate_stress, double ultimate_strain) {
   if (ultimate_stress <= 0.0 || ultimate_strain <= 0.0) {
-    r.error("model.hardening", {21, 60}, "UTS", "Iflag 1 needs a positive ultimate stress and the engineering strain at which it is reached");
+    r.error("model.hardening", {21, 60}, "UTS",
+            "Iflag 1 needs a positive ultimate stress and the engineering strain at which it is reached");
     return;
   }
   const double stress = ultimate_stress * (1.0 + ultimate_strain);
@@ -106,7 +109,8 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
   LawJohnsonCook law;
   read_elasticity(r, law.young, law.poisson, 0.0);
   const Id form = r.integer({41, 50}, "Iflag");
-  if (form != 0 && form != 1) r.error("model.bad_choice", {41, 50}, "Iflag", fmt::format("{} is not 0 (a, b, n) or 1 (yield and ultimate stress)", form));
+  if (form != 0 && form != 1)
+    r.error("model.bad_choice", {41, 50}, "Iflag", fmt::format("{} is not 0 (a, b, n) or 1 (yield and ultimate stress)", form));
   const Id rate = r.integer({51, 60}, "VP");
   if (rate < 0 || rate > 3) r.error("model.bad_choice", {51, 60}, "VP", fmt::format("{} is not one of 1, 2, 3", rate));
   law.vp = rate == 0 ? 2 : static_cast<int>(rate);
@@ -124,7 +128,8 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
   } else {
     law.b = second;
     law.n = or_default(third, 1.0);
-    if (law.n < 0.0) r.error("model.hardening", {41, 60}, "n", fmt::format("the hardening exponent is {:g}: it must not be negative", law.n));
+    if (law.n < 0.0)
+      r.error("model.hardening", {41, 60}, "n", fmt::format("the hardening exponent is {:g}: it must not be negative", law.n));
   }
   law.eps_max = or_default(r.real({61, 80}, "EPS_p_max"), unlimited);
   law.sigma_max = or_default(r.real({81, 100}, "SIG_max0", dim::pressure), unlimited);
@@ -139,7 +144,8 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
     r.error("model.rate", {21, 40}, "EPS_DOT_0", "a positive reference strain rate is needed where c is not 0");
   }
   const Id icc = r.integer({41, 50}, "ICC");
-  if (icc < 0 || icc > 2) r.error("model.bad_choice", {41, 50}, "ICC", fmt::format("{} is not 1 (rate effect on the stress cap) or 2 (none)", icc));
+  if (icc < 0 || icc > 2)
+    r.error("model.bad_choice", {41, 50}, "ICC", fmt::format("{} is not 1 (rate effect on the stress cap) or 2 (none)", icc));
   law.icc = icc == 0 ? 1 : static_cast<int>(icc);
   law.cutoff = r.real({61, 80}, "F_cut", dim::rate);
   if (law.cutoff < 0.0) r.error("model.rate", {61, 80}, "F_cut", "a cut-off frequency is positive, or 0 for no filter");
@@ -155,7 +161,9 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
   law.t_ref = r.real({61, 80}, "T_r");
   if (law.t_ref <= 0.0) law.t_ref = 300.0;
   law.t_max = or_default(r.real({81, 100}, "T_max"), unlimited);
-  if (law.t_melt <= law.t_ref) r.error("model.temperature", {21, 40}, "T_melt", fmt::format("the melting temperature {:g} is not above the reference temperature {:g}", law.t_melt, law.t_ref));
+  if (law.t_melt <= law.t_ref)
+    r.error("model.temperature", {21, 40}, "T_melt",
+            fmt::format("the melting temperature {:g} is not above the reference temperature {:g}", law.t_melt, law.t_ref));
   return law;
 }
 

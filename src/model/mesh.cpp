@@ -106,7 +106,9 @@ void read_parts(Context& c) {
     p.material = resolve(r, c.tables.materials, materials, material, "/MAT", {11, 20}, "mat_ID");
     p.subset = r.integer({21, 30}, "subset_ID");
     p.contact_thickness = r.real({31, 50}, "Thick", dim::length);
-    if (p.contact_thickness < 0.0) r.error("model.negative_thickness", {31, 50}, "Thick", fmt::format("{:g} is negative: a thickness is positive, or 0 for that of the property", p.contact_thickness));
+    if (p.contact_thickness < 0.0)
+      r.error("model.negative_thickness", {31, 50}, "Thick",
+              fmt::format("{:g} is negative: a thickness is positive, or 0 for that of the property", p.contact_thickness));
     parts.push_back(std::move(p));
     places.push_back(r.place());
   }

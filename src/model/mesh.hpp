@@ -9,8 +9,8 @@
 namespace abut::model {
 
 void read_nodes(Context& c);
-void read_functions(Context& c);   ///< /FUNCT, /MOVE_FUNCT
-void read_skews(Context& c);       ///< /SKEW/FIX, MOV, MOV2; needs nodes
+void read_functions(Context& c);  ///< /FUNCT, /MOVE_FUNCT
+void read_skews(Context& c);      ///< /SKEW/FIX, MOV, MOV2; needs nodes
 void read_materials(Context& c);
 
 /// A formulation that abut does not have: a fault only where elements of that kind use the property.

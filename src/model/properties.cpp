@@ -18,9 +18,7 @@ struct Reading {
 };
 
 /// Saturates: an absurd value stays absurd.
-int to_int(Id value) {
-  return static_cast<int>(std::clamp<Id>(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
-}
+int to_int(Id value) { return static_cast<int>(std::clamp<Id>(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max())); }
 
 /// A flag whose 0 means `fallback`; outside [low, high] is an error.
 int read_flag(BlockReader& r, deck::Columns columns, std::string_view field, Id low, Id high, int fallback) {
@@ -36,18 +34,21 @@ int read_flag(BlockReader& r, deck::Columns columns, std::string_view field, Id 
 double read_positive(BlockReader& r, deck::Columns columns, std::string_view field, double fallback, Dimension d = dim::none) {
   const double value = r.real(columns, field, d);
   if (value < 0.0) {
-    r.error("model.negative_coefficient", columns, field, fmt::format("{:g} is negative: it must be positive, or 0 for the default {:g}", value, fallback));
+    r.error("model.negative_coefficient", columns, field,
+            fmt::format("{:g} is negative: it must be positive, or 0 for the default {:g}", value, fallback));
   }
   return value == 0.0 ? fallback : value;
 }
 
-void refuse(Reading& in, ElementKind kind, deck::Columns columns, std::string_view field, bool by_default, int value, std::string_view right) {
+void refuse(Reading& in, ElementKind kind, deck::Columns columns, std::string_view field, bool by_default, int value,
+            std::string_view right) {
   Diagnostic d;
   d.severity = Severity::error;
   d.code = "model.unsupported_formulation";
   d.place = in.reader.place(columns, field);
-  d.message = fmt::format("{} {}{} is not supported: {}", field, value,
-                          by_default ? (kind == ElementKind::shell4 || kind == ElementKind::shell3 ? " (from /DEF_SHELL)" : " (from /DEF_SOLID)") : "", right);
+  d.message = fmt::format(
+      "{} {}{} is not supported: {}", field, value,
+      by_default ? (kind == ElementKind::shell4 || kind == ElementKind::shell3 ? " (from /DEF_SHELL)" : " (from /DEF_SOLID)") : "", right);
   in.refused.push_back({in.reader.id(), kind, std::move(d)});
 }
 
@@ -73,7 +74,8 @@ ShellProperty read_shell(Reading& in) {
   if (p.ish3n < 1 || p.ish3n > 2) refuse(in, ElementKind::shell3, {21, 30}, "Ish3n", ish3n == 0, p.ish3n, "1 and 2 are");
   const int idrill = read_flag(r, {31, 40}, "Idrill", 1, 2, d.idrill);
   p.idrill = idrill == 1 ? 1 : 0;
-  if (p.idrill == 1) refuse(in, ElementKind::shell4, {31, 40}, "Idrill", r.blank({31, 40}) || r.text({31, 40}) == "0", 1, "0 (no drilling stiffness) is");
+  if (p.idrill == 1)
+    refuse(in, ElementKind::shell4, {31, 40}, "Idrill", r.blank({31, 40}) || r.text({31, 40}) == "0", 1, "0 (no drilling stiffness) is");
   if (r.integer({41, 50}, "Ipinch") != 0) refuse(in, ElementKind::shell4, {41, 50}, "Ipinch", false, 1, "0 (no pinching) is");
   const double fail = r.real({61, 80}, "P_thickfail");
   if (fail < 0.0 || fail > 1.0) r.error("model.bad_fraction", {61, 80}, "P_thickfail", fmt::format("{:g} is not a fraction: 0 to 1", fail));
@@ -95,7 +97,8 @@ ShellProperty read_shell(Reading& in) {
     p.points = to_int(points);
   }
   p.thickness = r.real({21, 40}, "Thick", dim::length);
-  if (p.thickness <= 0.0) r.error("model.thickness", {21, 40}, "Thick", fmt::format("the thickness is {:g}: it must be positive", p.thickness));
+  if (p.thickness <= 0.0)
+    r.error("model.thickness", {21, 40}, "Thick", fmt::format("the thickness is {:g}: it must be positive", p.thickness));
   p.shear_factor = read_positive(r, {41, 60}, "Ashear", 5.0 / 6.0);
   p.thickness_changes = read_flag(r, {71, 80}, "Ithick", 1, 2, d.ithick) == 1;
   p.iplas = read_flag(r, {81, 90}, "Iplas", 1, 2, d.iplas);
@@ -180,7 +183,8 @@ std::vector<RefusedFormulation> read_properties(Context& c) {
       VoidProperty v;
       r.next_card();
       v.thickness = r.real({1, 20}, "Thick", dim::length);
-      if (v.thickness < 0.0) r.error("model.thickness", {1, 20}, "Thick", fmt::format("the thickness is {:g}: it must not be negative", v.thickness));
+      if (v.thickness < 0.0)
+        r.error("model.thickness", {1, 20}, "Thick", fmt::format("the thickness is {:g}: it must not be negative", v.thickness));
       p.data = v;
     }
     c.model->properties.push_back(std::move(p));

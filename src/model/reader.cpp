@@ -56,8 +56,7 @@ double Context::factor(Dimension d, Id unit_id) const {
          power(value_units->time / work.time, d.time);
 }
 
-BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title)
-    : context_(&context), block_(&block) {
+BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title) : context_(&context), block_(&block) {
   const bool old = old_layout(context);
   const auto error = [this](std::string_view code, std::string message) {
     context_->diagnostics->error(std::string(code), place(), std::move(message));

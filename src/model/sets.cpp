@@ -44,8 +44,10 @@ SetReader::SetReader(Context& c) : c_(c), m_(*c.model), boxes_(c) {
   part_shells_.resize(parts);
   part_sh3ns_.resize(parts);
   part_solids_.resize(parts);
-  for (Index e = 0; e < m_.shells.size(); ++e) part_shells_[static_cast<std::size_t>(m_.shells.part[static_cast<std::size_t>(e)])].push_back(e);
-  for (Index e = 0; e < m_.sh3ns.size(); ++e) part_sh3ns_[static_cast<std::size_t>(m_.sh3ns.part[static_cast<std::size_t>(e)])].push_back(e);
+  for (Index e = 0; e < m_.shells.size(); ++e)
+    part_shells_[static_cast<std::size_t>(m_.shells.part[static_cast<std::size_t>(e)])].push_back(e);
+  for (Index e = 0; e < m_.sh3ns.size(); ++e)
+    part_sh3ns_[static_cast<std::size_t>(m_.sh3ns.part[static_cast<std::size_t>(e)])].push_back(e);
   for (Index e = 0; e < solid_count(m_); ++e) part_solids_[static_cast<std::size_t>(solid_part(m_, e))].push_back(e);
   for (std::size_t p = 0; p < parts; ++p) subset_parts_[c_.part_subset[p]].push_back(static_cast<Index>(p));
 }
@@ -56,7 +58,8 @@ void SetReader::collect() {
   for (const deck::Block& b : c_.deck->blocks) {
     if (b.is(0, "SUBSET")) {
       BlockReader r(c_, b, 1, true);
-      if (r.id() > 0 && !first_subset.emplace(r.id(), r.place()).second) report_duplicate(c_, "/SUBSET", r.id(), r.place(), first_subset[r.id()]);
+      if (r.id() > 0 && !first_subset.emplace(r.id(), r.place()).second)
+        report_duplicate(c_, "/SUBSET", r.id(), r.place(), first_subset[r.id()]);
       std::vector<Id>& children = subset_children_[r.id()];
       for (const Id child : r.id_list("subset_ID")) children.push_back(child);
       continue;
@@ -97,19 +100,30 @@ SetReader::Item* SetReader::find(SetFamily family, Id id) {
 bool SetReader::evaluate(Item& item) {
   if (item.state == Item::State::done) return true;
   if (item.state == Item::State::in_progress || depth_ >= deepest_nesting) {
-    c_.diagnostics->error("model.circular_reference", c_.deck->place(*item.block), "the set contains itself, or sets are nested too deeply");
+    c_.diagnostics->error("model.circular_reference", c_.deck->place(*item.block),
+                          "the set contains itself, or sets are nested too deeply");
     return false;
   }
   item.state = Item::State::in_progress;
   ++depth_;
   switch (item.family) {
-    case SetFamily::grnod: evaluate_node_group(item); break;
+    case SetFamily::grnod:
+      evaluate_node_group(item);
+      break;
     case SetFamily::grshel:
     case SetFamily::grsh3n:
-    case SetFamily::grbric: evaluate_element_group(item); break;
-    case SetFamily::grpart: evaluate_part_group(item); break;
-    case SetFamily::surf: evaluate_surface(item); break;
-    case SetFamily::set: evaluate_general_set(item); break;
+    case SetFamily::grbric:
+      evaluate_element_group(item);
+      break;
+    case SetFamily::grpart:
+      evaluate_part_group(item);
+      break;
+    case SetFamily::surf:
+      evaluate_surface(item);
+      break;
+    case SetFamily::set:
+      evaluate_general_set(item);
+      break;
   }
   --depth_;
   item.state = Item::State::done;
@@ -121,10 +135,14 @@ const SetReader::Members* SetReader::members(SetFamily family, Id id) {
   if (item == nullptr || !evaluate(*item)) return nullptr;
   if (item->family != SetFamily::set || family == SetFamily::grnod) return &item->members;
   switch (family) {
-    case SetFamily::grshel: return &item->shells;
-    case SetFamily::grsh3n: return &item->sh3ns;
-    case SetFamily::grbric: return &item->solids;
-    default: return &item->parts;
+    case SetFamily::grshel:
+      return &item->shells;
+    case SetFamily::grsh3n:
+      return &item->sh3ns;
+    case SetFamily::grbric:
+      return &item->solids;
+    default:
+      return &item->parts;
   }
 }
 
@@ -159,17 +177,26 @@ void SetReader::register_results() {
       }
     }
     switch (item->family) {
-      case SetFamily::grshel: add_group(c_.tables.shell_groups, c_.shell_groups, item->id, std::move(item->members)); break;
-      case SetFamily::grsh3n: add_group(c_.tables.sh3n_groups, c_.sh3n_groups, item->id, std::move(item->members)); break;
-      case SetFamily::grbric: add_group(c_.tables.brick_groups, c_.brick_groups, item->id, std::move(item->members)); break;
-      case SetFamily::grpart: add_group(c_.tables.part_groups, c_.part_groups, item->id, std::move(item->members)); break;
+      case SetFamily::grshel:
+        add_group(c_.tables.shell_groups, c_.shell_groups, item->id, std::move(item->members));
+        break;
+      case SetFamily::grsh3n:
+        add_group(c_.tables.sh3n_groups, c_.sh3n_groups, item->id, std::move(item->members));
+        break;
+      case SetFamily::grbric:
+        add_group(c_.tables.brick_groups, c_.brick_groups, item->id, std::move(item->members));
+        break;
+      case SetFamily::grpart:
+        add_group(c_.tables.part_groups, c_.part_groups, item->id, std::move(item->members));
+        break;
       case SetFamily::set:
         add_group(c_.tables.shell_groups, c_.shell_groups, item->id, std::move(item->shells));
         add_group(c_.tables.sh3n_groups, c_.sh3n_groups, item->id, std::move(item->sh3ns));
         add_group(c_.tables.brick_groups, c_.brick_groups, item->id, std::move(item->solids));
         add_group(c_.tables.part_groups, c_.part_groups, item->id, std::move(item->parts));
         break;
-      default: break;
+      default:
+        break;
     }
   }
 }

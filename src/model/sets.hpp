@@ -44,8 +44,8 @@ class SetReader {
     Id id = 0;
     std::string title;
     enum class State { unknown, in_progress, done } state = State::unknown;
-    Members members;                 ///< nodes, elements or parts
-    std::vector<Segment> segments;   ///< surfaces and sets
+    Members members;                ///< nodes, elements or parts
+    std::vector<Segment> segments;  ///< surfaces and sets
     std::unique_ptr<Content> content;
     Members shells, sh3ns, solids, parts;  ///< sets
   };
@@ -98,7 +98,8 @@ class SetReader {
   void add_sh3n(Index sh3n, bool reversed, std::vector<Segment>& out) const;
   enum class Faces { none, external, all };
   void add_parts(BlockReader& r, const SignedParts& parts, Faces faces, std::vector<Segment>& out);
-  void add_solids(const Members& solids, const Members& candidates, Faces faces, const std::vector<Segment>& shells, std::vector<Segment>& out) const;
+  void add_solids(const Members& solids, const Members& candidates, Faces faces, const std::vector<Segment>& shells,
+                  std::vector<Segment>& out) const;
   void add_element_groups(BlockReader& r, SetFamily family, std::vector<Segment>& out);
   void add_solid_groups(BlockReader& r, bool free_faces, std::vector<Segment>& out);
   void add_box(BlockReader& r, bool any, Faces faces, std::vector<Segment>& out);

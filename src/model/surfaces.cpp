@@ -72,7 +72,8 @@ void SetReader::add_parts(BlockReader& r, const SignedParts& parts, Faces faces,
     const Members& own = part_solids_[static_cast<std::size_t>(p)];
     if (!own.empty() && faces == Faces::none) {
       c_.diagnostics->error("model.solids_in_surface", r.place(),
-                            fmt::format("part {} holds solids: use /SURF/.../EXT for their outer faces or /SURF/.../ALL for all", m_.parts[static_cast<std::size_t>(p)].id));
+                            fmt::format("part {} holds solids: use /SURF/.../EXT for their outer faces or /SURF/.../ALL for all",
+                                        m_.parts[static_cast<std::size_t>(p)].id));
     }
     solids.insert(solids.end(), own.begin(), own.end());
   }
@@ -138,7 +139,8 @@ std::optional<Segment> SetReader::read_segment(BlockReader& r, int first_column)
       s.nodes[3] = s.nodes[2];
       continue;
     }
-    if (id == 0) r.error("model.missing_node", columns, names[k], "a segment needs three or four nodes; the first field is the segment's own id");
+    if (id == 0)
+      r.error("model.missing_node", columns, names[k], "a segment needs three or four nodes; the first field is the segment's own id");
     s.nodes[k] = r.resolve(c_.tables.nodes, id, "/NODE", columns, names[k]);
     good = good && s.nodes[k] != no_index;
   }
@@ -148,7 +150,8 @@ std::optional<Segment> SetReader::read_segment(BlockReader& r, int first_column)
   const double size = std::max(squared_norm(x[2] - x[0]), squared_norm(x[3] - x[1]));
   constexpr double flat = 1e-12;
   if (!(facet_area(x) > flat * size)) {
-    r.error("model.zero_area", {first_column, first_column + 39}, "n1-n4", "the segment has no area: its nodes must be distinct and not on one line");
+    r.error("model.zero_area", {first_column, first_column + 39}, "n1-n4",
+            "the segment has no area: its nodes must be distinct and not on one line");
     return std::nullopt;
   }
   if (!node_elements_) node_elements_.emplace(m_);
@@ -206,9 +209,11 @@ void SetReader::evaluate_surface(Item& item) {
     known = false;
   }
   if (!known) {
-    c_.diagnostics->error("model.unknown_type", r.place(),
-                          fmt::format("type '{}' of /SURF is not supported: SEG, PART, SUBSET, MAT, PROP (with /EXT or /ALL for solids), GRSHEL, GRSH3N, "
-                                      "GRBRIC/EXT, GRBRIC/FREE, SURF and BOX are", deck::printable(b.word(1))));
+    c_.diagnostics->error(
+        "model.unknown_type", r.place(),
+        fmt::format("type '{}' of /SURF is not supported: SEG, PART, SUBSET, MAT, PROP (with /EXT or /ALL for solids), GRSHEL, GRSH3N, "
+                    "GRBRIC/EXT, GRBRIC/FREE, SURF and BOX are",
+                    deck::printable(b.word(1))));
     return;
   }
   if (out.empty()) c_.diagnostics->warning("model.empty_surface", r.place(), "the surface holds no segment");

@@ -27,7 +27,8 @@ Face distinct(const std::array<Index, 4>& nodes) {
 
 std::size_t corner_count(const Face& f) { return f[3] == no_index ? 3 : 4; }
 
-/// The face from its smallest node on, in the sense in which the second node is smaller than the last; `flipped` tells whether it was turned.
+/// The face from its smallest node on, in the sense in which the second node is smaller than the last; `flipped` tells whether it was
+/// turned.
 std::pair<Face, bool> canonical(const Face& f) {
   const std::size_t n = corner_count(f);
   Face out{no_index, no_index, no_index, no_index};
@@ -112,9 +113,7 @@ Face sorted_face(Face f) {
   return f;
 }
 
-std::array<Index, 4> segment_nodes(const Face& f) {
-  return {f[0], f[1], f[2], f[3] == no_index ? f[2] : f[3]};
-}
+std::array<Index, 4> segment_nodes(const Face& f) { return {f[0], f[1], f[2], f[3] == no_index ? f[2] : f[3]}; }
 
 std::vector<SolidFace> external_faces(const Model& m, const std::vector<Index>& solids, const std::vector<Index>& candidates) {
   struct Entry {

@@ -36,7 +36,8 @@ struct SolidFace {
   Face face{};
 };
 
-/// Faces of `solids` (sorted) that no solid of `candidates` (sorted, contains `solids`) shares in the opposite sense; in order of solid and face.
+/// Faces of `solids` (sorted) that no solid of `candidates` (sorted, contains `solids`) shares in the opposite sense; in order of solid and
+/// face.
 [[nodiscard]] std::vector<SolidFace> external_faces(const Model& m, const std::vector<Index>& solids, const std::vector<Index>& candidates);
 
 /// Elements at each node, in compressed rows.

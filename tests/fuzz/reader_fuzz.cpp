@@ -1,4 +1,5 @@
-// No text may crash the reader: any bytes as a Starter and as an Engine deck, through every reader of mesh and sets (run with -max_len=20000).
+// No text may crash the reader: any bytes as a Starter and as an Engine deck, through every reader of mesh and sets (run with
+// -max_len=20000).
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -28,9 +28,7 @@ TEST(Fields, BeyondTheEndOfTheCardIsBlank) {
   EXPECT_EQ(field_text("abc", {3, 10}), "c");
 }
 
-TEST(Fields, NothingRightOfColumn100Counts) {
-  EXPECT_EQ(field_text(std::string(99, ' ') + "12", {91, 110}), "1");
-}
+TEST(Fields, NothingRightOfColumn100Counts) { EXPECT_EQ(field_text(std::string(99, ' ') + "12", {91, 110}), "1"); }
 
 TEST(Fields, TabIsABlank) { EXPECT_EQ(field_text("\t 7\t\t", {1, 10}), "7"); }
 
@@ -57,8 +55,8 @@ TEST(Fields, EverySpellingOfARealIsRead) {
 }
 
 TEST(Fields, WhatIsNotARealIsRefused) {
-  for (const char* bad : {"1.2.3", "abc", "inf", "-inf", "nan", "NAN", "1e", "1D+", "--1", "+", "-", ".", "1,5", "0x10", "1 2", "1e5e5",
-                          "1e999", "1D999", "&gap", "e5", "1.5e-", "\xff", "infinity", "1_0"}) {
+  for (const char* bad : {"1.2.3", "abc",  "inf", "-inf",  "nan",   "NAN",   "1e",   "1D+", "--1",   "+",    "-",        ".",
+                          "1,5",   "0x10", "1 2", "1e5e5", "1e999", "1D999", "&gap", "e5",  "1.5e-", "\xff", "infinity", "1_0"}) {
     EXPECT_FALSE(parse_real(bad).has_value()) << bad;
   }
 }

@@ -1,6 +1,5 @@
 // Text -> blocks: line kinds, keyword lines, includes, one-file decks (deck-format.md A.1 to A.9); surprises of H.2 by their number.
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <filesystem>
@@ -37,7 +36,9 @@ Deck scan(const std::string& text) {
 /// A folder that lives as long as a test.
 class Folder {
  public:
-  Folder() : path_(fs::temp_directory_path() / ("abut_deck_" + std::to_string(::getpid()) + "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+  Folder()
+      : path_(fs::temp_directory_path() /
+              ("abut_deck_" + std::to_string(::getpid()) + "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }
@@ -59,7 +60,8 @@ class Folder {
 };
 
 TEST(Scanner, CommentsNeverCountAsCards) {
-  const Deck deck = scan("#RADIOSS STARTER\n# text\n/PART/1\n#title comes\n$ old comment\nplate\n         1\n# between\n         2\n/END\n");
+  const Deck deck =
+      scan("#RADIOSS STARTER\n# text\n/PART/1\n#title comes\n$ old comment\nplate\n         1\n# between\n         2\n/END\n");
   ASSERT_EQ(deck.blocks.size(), 1u);
   EXPECT_EQ(card_texts(deck.blocks[0]), (std::vector<std::string>{"plate", "         1", "         2"}));
   EXPECT_EQ(deck.blocks[0].line, 3);
@@ -98,9 +100,7 @@ TEST(Scanner, Surprise17CarriageReturnsMissingNewlineForeignBytes) {
   EXPECT_EQ(deck.blocks[0].name(), "/NODE");
 }
 
-TEST(Scanner, ByteOrderMarkIsNotText) {
-  EXPECT_EQ(scan("\xEF\xBB\xBF/NODE\n").blocks.size(), 1u);
-}
+TEST(Scanner, ByteOrderMarkIsNotText) { EXPECT_EQ(scan("\xEF\xBB\xBF/NODE\n").blocks.size(), 1u); }
 
 TEST(Scanner, HashOrSlashNotInColumnOneIsData) {
   const Deck deck = scan("/FUNCT_PYTHON/1\nt\n  # text\n  /x\n");
@@ -124,7 +124,8 @@ TEST(Scanner, SubmodelKeepsItsSecondSlash) {
 TEST(Scanner, DataBeforeTheFirstKeywordIsAWarning) {
   Diagnostics d;
   (void)read_starter_text("1 2 3\n4\n/NODE\n", "t", d);
-  EXPECT_EQ(messages(d), std::vector<std::string>{"t:1: warning: data before the first keyword is ignored: a data line belongs below a keyword line"});
+  EXPECT_EQ(messages(d),
+            std::vector<std::string>{"t:1: warning: data before the first keyword is ignored: a data line belongs below a keyword line"});
 }
 
 TEST(Scanner, TextWithoutKeywordIsAnError) {
@@ -167,7 +168,8 @@ TEST(Include, Surprise2NestedPastedTextWithoutExtension) {
 TEST(Include, Surprise3PlainTextIsNoCard) {
   const Folder folder;
   folder.write("notes.inc", "Notice> some words\nNotice>\nNotice> 2 more 3\n");
-  const fs::path main = folder.write("a_0000.rad", "/TITLE\nmodel\n#include notes.inc\n/TH/BRIC/1\nt\nDEF\n         1\n#include notes.inc\n/END\n");
+  const fs::path main =
+      folder.write("a_0000.rad", "/TITLE\nmodel\n#include notes.inc\n/TH/BRIC/1\nt\nDEF\n         1\n#include notes.inc\n/END\n");
   Diagnostics d;
   const DeckPair pair = read(main, d);
   EXPECT_FALSE(d.has_errors());
@@ -181,7 +183,8 @@ TEST(Include, Surprise4And5WholeDeckWithItsOwnBeginAndEnd) {
   const Folder folder;
   folder.write("dummy_0000.rad", "#RADIOSS STARTER\n/BEGIN\ndummy\n      2019\n/NODE\n         1\n#enddata\n         9\n/END\n");
   folder.write("other.inc", "/BEGIN\nx\n/PART/1\np\n/END\n/PART/2\n");
-  const fs::path main = folder.write("a_0000.rad", "/BEGIN\nsled\n      2022\n#include dummy_0000.rad\n#include other.inc\n/NODE\n         2\n/END\n");
+  const fs::path main =
+      folder.write("a_0000.rad", "/BEGIN\nsled\n      2022\n#include dummy_0000.rad\n#include other.inc\n/NODE\n         2\n/END\n");
   Diagnostics d;
   const DeckPair pair = read(main, d);
   EXPECT_EQ(messages(d), std::vector<std::string>{});
@@ -197,8 +200,8 @@ TEST(Include, MissingFileNamesWhereItWasSearched) {
   const fs::path main = folder.write("a_0000.rad", "/NODE\n#include gone.inc\n#include \n");
   Diagnostics d;
   (void)read(main, d);
-  EXPECT_EQ(messages(d), (std::vector<std::string>{main.string() + ":2: included file 'gone.inc' not found or not readable; searched in '" + folder.path().string() +
-                                                       "' and in the working directory",
+  EXPECT_EQ(messages(d), (std::vector<std::string>{main.string() + ":2: included file 'gone.inc' not found or not readable; searched in '" +
+                                                       folder.path().string() + "' and in the working directory",
                                                    main.string() + ":3: #include without a file name: write '#include FILE'"}));
 }
 
@@ -272,7 +275,8 @@ TEST(Files, AMissingDeckIsAnError) {
   Diagnostics d;
   const DeckPair pair = read("/nonexistent/x_0000.rad", d);
   EXPECT_TRUE(pair.starter.blocks.empty());
-  EXPECT_EQ(messages(d), std::vector<std::string>{"/nonexistent/x_0000.rad: cannot be read: the path of a Starter deck NAME_0000.rad is needed"});
+  EXPECT_EQ(messages(d),
+            std::vector<std::string>{"/nonexistent/x_0000.rad: cannot be read: the path of a Starter deck NAME_0000.rad is needed"});
 }
 
 TEST(Files, ViewsSurviveAMoveOfTheDeck) {

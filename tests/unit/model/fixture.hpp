@@ -47,9 +47,7 @@ struct Reading {
 };
 
 /// A field of `width` columns, right-justified.
-inline std::string field(const std::string& s, std::size_t width) {
-  return s.size() >= width ? s : std::string(width - s.size(), ' ') + s;
-}
+inline std::string field(const std::string& s, std::size_t width) { return s.size() >= width ? s : std::string(width - s.size(), ' ') + s; }
 /// A card of 10-column fields.
 inline std::string ints(const std::vector<long>& values) {
   std::string s;
@@ -66,7 +64,9 @@ inline std::string node(long id, const std::string& x, const std::string& y, con
   return field(std::to_string(id), 10) + reals({x, y, z});
 }
 
-inline const char* begin_2022 = "/BEGIN\nt\n      2022         0\n                  kg                   m                   s\n                  kg                   m                   s\n";
+inline const char* begin_2022 =
+    "/BEGIN\nt\n      2022         0\n                  kg                   m                   s\n                  kg                   "
+    "m                   s\n";
 inline const char* steel = "/MAT/ELAST/1\nsteel\n                7800\n        210000000000                  .3\n";
 inline const char* shell_property = "/PROP/SHELL/1\nshell\n         0\n                   0\n         0         0                 .01\n";
 inline const char* solid_property = "/PROP/SOLID/2\nsolid\n         0\n                   0\n";

@@ -44,7 +44,7 @@ TEST(Control, WorkUnitsConvertEveryDimension) {
   EXPECT_DOUBLE_EQ(factor(dim::pressure), 1e6);  // g/(mm ms2) = MPa
   EXPECT_DOUBLE_EQ(factor(dim::density), 1e6);
   EXPECT_DOUBLE_EQ(factor(dim::velocity), 1.0);
-  EXPECT_DOUBLE_EQ(factor(dim::force), 1.0);     // g mm/ms2 = N
+  EXPECT_DOUBLE_EQ(factor(dim::force), 1.0);  // g mm/ms2 = N
   EXPECT_EQ(factor(dim::none), 1.0);
   EXPECT_EQ(r.model.name, "run");
   EXPECT_EQ(r.model.units.length_name, "m");
@@ -80,8 +80,8 @@ TEST(Control, OldUnitKeywordsSetBothSystems) {
 
 TEST(Control, LocalUnitsApplyToTheirKeyword) {
   Reading r;
-  r.read(begin("2022", {"kg", "m", "s"}, {"kg", "m", "s"}) + "/UNIT/7\nlocal\n" + reals({"g", "mm", "ms"}) + "/NODE/7\n" + node(1, "5", "0", "-2") + "/NODE\n" +
-         node(2, "5", "0", "0"));
+  r.read(begin("2022", {"kg", "m", "s"}, {"kg", "m", "s"}) + "/UNIT/7\nlocal\n" + reals({"g", "mm", "ms"}) + "/NODE/7\n" +
+         node(1, "5", "0", "-2") + "/NODE\n" + node(2, "5", "0", "0"));
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_DOUBLE_EQ(r.model.node_x[0].x, 5e-3);
   EXPECT_DOUBLE_EQ(r.model.node_x[0].z, -2e-3);
@@ -91,17 +91,21 @@ TEST(Control, LocalUnitsApplyToTheirKeyword) {
 TEST(Control, BadUnitsSayWhatWouldBeRight) {
   Reading r;
   r.read(begin("2022", {"kilo", "m", "s"}, {"kg", "m", "-1"}) + "/NODE/9\n/UNIT/LENGTH/inch\n/UNIT/3\nt\n" + reals({"kg"}));
-  EXPECT_EQ(r.errors(),
-            (Strings{"t_0000.rad:4: /BEGIN field 'input mass unit' (columns 1-20): 'kilo' is not a unit of mass: write a code such as kg, g, Mg, or its size in SI as "
-                     "a positive number",
-                     "t_0000.rad:5: /BEGIN field 'work time unit' (columns 41-60): '-1' is not a unit of time: write a code such as s, ms, mus, or its size in SI as a "
-                     "positive number",
-                     "t_0000.rad:7: /UNIT/LENGTH/inch: 'inch' is not a unit of length: write a code such as m, mm, cm, or its size in SI as a positive number",
-                     "t_0000.rad:10: /UNIT/3 field 'local length unit' (columns 21-40): '' is not a unit of length: write a code such as m, mm, cm, or its size in SI as "
-                     "a positive number",
-                     "t_0000.rad:10: /UNIT/3 field 'local time unit' (columns 41-60): '' is not a unit of time: write a code such as s, ms, mus, or its size in SI as a "
-                     "positive number",
-                     "t_0000.rad:6: /NODE/9: no /UNIT with id 9"}));
+  EXPECT_EQ(r.errors(), (Strings{"t_0000.rad:4: /BEGIN field 'input mass unit' (columns 1-20): 'kilo' is not a unit of mass: write a code "
+                                 "such as kg, g, Mg, or its size in SI as "
+                                 "a positive number",
+                                 "t_0000.rad:5: /BEGIN field 'work time unit' (columns 41-60): '-1' is not a unit of time: write a code "
+                                 "such as s, ms, mus, or its size in SI as a "
+                                 "positive number",
+                                 "t_0000.rad:7: /UNIT/LENGTH/inch: 'inch' is not a unit of length: write a code such as m, mm, cm, or its "
+                                 "size in SI as a positive number",
+                                 "t_0000.rad:10: /UNIT/3 field 'local length unit' (columns 21-40): '' is not a unit of length: write a "
+                                 "code such as m, mm, cm, or its size in SI as "
+                                 "a positive number",
+                                 "t_0000.rad:10: /UNIT/3 field 'local time unit' (columns 41-60): '' is not a unit of time: write a code "
+                                 "such as s, ms, mus, or its size in SI as a "
+                                 "positive number",
+                                 "t_0000.rad:6: /NODE/9: no /UNIT with id 9"}));
 }
 
 TEST(Control, OldHeaderCarriesVersionAndName) {
@@ -170,20 +174,24 @@ TEST(Control, NoBeginMeansNewestVersion) {
 TEST(Control, Surprise23TwoDimensionalDecksAreRefused) {
   Reading r;
   r.read(std::string(begin_2022) + "/ANALY\n         1                   0         0\n");
-  EXPECT_EQ(r.errors(), Strings{"t_0000.rad:7: /ANALY field 'N2D3D' (columns 1-10): 1 asks for an axisymmetric or plane analysis: abut is three-dimensional (0)"});
+  EXPECT_EQ(r.errors(), Strings{"t_0000.rad:7: /ANALY field 'N2D3D' (columns 1-10): 1 asks for an axisymmetric or plane analysis: abut is "
+                                "three-dimensional (0)"});
 }
 
 TEST(Control, Surprise28GeometricNoiseIsAWarning) {
   Reading r;
   r.read(std::string(begin_2022) + "/RANDOM\n               0.001                   0\n");
-  EXPECT_EQ(r.messages(Severity::warning), Strings{"t_0000.rad:7: warning: /RANDOM field 'Xalea' (columns 1-20): geometric noise of 0.001 is not applied: results "
-                                                   "differ from those of a perturbed mesh"});
+  EXPECT_EQ(r.messages(Severity::warning),
+            Strings{"t_0000.rad:7: warning: /RANDOM field 'Xalea' (columns 1-20): geometric noise of 0.001 is not applied: results "
+                    "differ from those of a perturbed mesh"});
 }
 
 TEST(Control, OnlyTheFirstDefaultsCount) {
   Reading r;
-  r.read(std::string(begin_2022) + "/DEF_SHELL\n         4         0         1         1         0                             1         0\n/DEF_SHELL\n         2\n" +
-         "/DEF_SOLID\n         2         0         0         0         0         0         1         2\n/SHFRA/V4\n/TITLE\n  two words \n");
+  r.read(
+      std::string(begin_2022) +
+      "/DEF_SHELL\n         4         0         1         1         0                             1         0\n/DEF_SHELL\n         2\n" +
+      "/DEF_SOLID\n         2         0         0         0         0         0         1         2\n/SHFRA/V4\n/TITLE\n  two words \n");
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(r.context.shell_defaults.ishell, 4);
   EXPECT_EQ(r.context.shell_defaults.ismstr, 2);
@@ -205,14 +213,17 @@ TEST(Control, ADefaultOutOfRangeIsAnError) {
 
 TEST(Control, KeywordsThatChangePhysicsAreRefusedAndOthersListed) {
   Reading r;
-  r.deck = deck::read_starter_text(std::string(begin_2022) + "/IOFLAG\n0\n/SPMD\n/SPMD\n/BEAM/3\n1 2\n3 4\n/BEAM/4\n5 6\n/INTER/TYPE11/2\nt\n/NOVELTY/1\n/FRAME/FIX/3\n",
-                                   "t_0000.rad", r.diagnostics);
+  r.deck = deck::read_starter_text(
+      std::string(begin_2022) + "/IOFLAG\n0\n/SPMD\n/SPMD\n/BEAM/3\n1 2\n3 4\n/BEAM/4\n5 6\n/INTER/TYPE11/2\nt\n/NOVELTY/1\n/FRAME/FIX/3\n",
+      "t_0000.rad", r.diagnostics);
   r.attach();
   read_control(r.context);
   check_keywords(r.context);
-  EXPECT_EQ(r.errors(), (Strings{"t_0000.rad:10: /BEAM/3: /BEAM (2 blocks with 3 lines) is not supported: abut has no elements of this kind; SHELL, SH3N, BRICK, TETRA4 "
+  EXPECT_EQ(r.errors(), (Strings{"t_0000.rad:10: /BEAM/3: /BEAM (2 blocks with 3 lines) is not supported: abut has no elements of this "
+                                 "kind; SHELL, SH3N, BRICK, TETRA4 "
                                  "and PENTA6 are supported",
-                                 "t_0000.rad:15: /INTER/TYPE11/2: /INTER/TYPE11 is not supported: abut does not have this interface; TYPE3, TYPE5 and TYPE7 are supported",
+                                 "t_0000.rad:15: /INTER/TYPE11/2: /INTER/TYPE11 is not supported: abut does not have this interface; "
+                                 "TYPE3, TYPE5 and TYPE7 are supported",
                                  "t_0000.rad:17: /NOVELTY/1: /NOVELTY is not supported: not known to abut; it may change the mechanics"}));
   ASSERT_EQ(r.model.skipped.size(), 3u);
   EXPECT_EQ(r.model.skipped[2].keyword, "/SPMD");

@@ -14,8 +14,14 @@ std::string head() { return std::string(begin_2022) + steel + shell_property + s
 /// Corners of the unit cube as nodes 1 to 8.
 std::string cube() {
   std::string s = "/NODE\n";
-  const std::array<std::array<const char*, 3>, 8> x{
-      {{"0", "0", "0"}, {"1", "0", "0"}, {"1", "1", "0"}, {"0", "1", "0"}, {"0", "0", "1"}, {"1", "0", "1"}, {"1", "1", "1"}, {"0", "1", "1"}}};
+  const std::array<std::array<const char*, 3>, 8> x{{{"0", "0", "0"},
+                                                     {"1", "0", "0"},
+                                                     {"1", "1", "0"},
+                                                     {"0", "1", "0"},
+                                                     {"0", "0", "1"},
+                                                     {"1", "0", "1"},
+                                                     {"1", "1", "1"},
+                                                     {"0", "1", "1"}}};
   for (std::size_t k = 0; k < 8; ++k) s += node(static_cast<long>(k) + 1, x[k][0], x[k][1], x[k][2]);
   return s;
 }
@@ -30,9 +36,10 @@ TEST(Mesh, TheOrderOfListingHasNoEffect) {
   Reading a;
   a.read(head() + cube() + "/SHELL/1\n" + ints({7, 1, 2, 3, 4}) + ints({9, 5, 6, 7, 8}));
   Reading b;
-  b.read(std::string(begin_2022) + "/SHELL/1\n" + ints({9, 5, 6, 7, 8}) + "/NODE\n" + node(8, "0", "1", "1") + node(7, "1", "1", "1") + node(6, "1", "0", "1") +
-         node(5, "0", "0", "1") + "/NODE\n" + node(4, "0", "1", "0") + node(3, "1", "1", "0") + node(2, "1", "0", "0") + node(1, "0", "0", "0") + solid_part + shell_part +
-         "/SHELL/1\n" + ints({7, 1, 2, 3, 4}) + solid_property + shell_property + steel);
+  b.read(std::string(begin_2022) + "/SHELL/1\n" + ints({9, 5, 6, 7, 8}) + "/NODE\n" + node(8, "0", "1", "1") + node(7, "1", "1", "1") +
+         node(6, "1", "0", "1") + node(5, "0", "0", "1") + "/NODE\n" + node(4, "0", "1", "0") + node(3, "1", "1", "0") +
+         node(2, "1", "0", "0") + node(1, "0", "0", "0") + solid_part + shell_part + "/SHELL/1\n" + ints({7, 1, 2, 3, 4}) + solid_property +
+         shell_property + steel);
   EXPECT_EQ(b.errors(), Strings{});
   EXPECT_EQ(a.model.node_id, b.model.node_id);
   EXPECT_EQ(a.model.node_x, b.model.node_x);
@@ -44,8 +51,9 @@ TEST(Mesh, TheOrderOfListingHasNoEffect) {
 
 TEST(Mesh, Surprise26ElementThicknessAndSolidsWithFourAndSixNodes) {
   Reading r;
-  r.read(head() + cube() + "/SHELL/1\n" + field("1", 10) + ints({1, 2, 3, 4}).substr(0, 40) + std::string(10, ' ') + reals({"0", "0.02"}) + "/BRICK/2\n" +
-         ints({1, 1, 2, 3, 4, 5, 6, 7, 8}) + ints({2, 1, 3, 2, 5}) + ints({3, 1, 2, 3, 5, 6, 7}) + ints({4, 1, 2, 3, 3, 5, 6, 7, 7}));
+  r.read(head() + cube() + "/SHELL/1\n" + field("1", 10) + ints({1, 2, 3, 4}).substr(0, 40) + std::string(10, ' ') + reals({"0", "0.02"}) +
+         "/BRICK/2\n" + ints({1, 1, 2, 3, 4, 5, 6, 7, 8}) + ints({2, 1, 3, 2, 5}) + ints({3, 1, 2, 3, 5, 6, 7}) +
+         ints({4, 1, 2, 3, 3, 5, 6, 7, 7}));
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(r.model.shells.thickness[0], 0.02);
   ASSERT_EQ(r.model.bricks.size(), 4);
@@ -59,54 +67,60 @@ TEST(Mesh, Surprise26ElementThicknessAndSolidsWithFourAndSixNodes) {
 
 TEST(Mesh, NegativeVolumesAreTurned) {
   Reading r;
-  r.read(head() + cube() + "/BRICK/2\n" + ints({1, 5, 6, 7, 8, 1, 2, 3, 4}) + ints({2, 1, 5, 2, 3}) + "/TETRA4/2\n" + ints({3, 1, 5, 2, 3}) + "/PENTA6/2\n" +
-         ints({4, 5, 6, 7, 1, 2, 3}));
+  r.read(head() + cube() + "/BRICK/2\n" + ints({1, 5, 6, 7, 8, 1, 2, 3, 4}) + ints({2, 1, 5, 2, 3}) + "/TETRA4/2\n" +
+         ints({3, 1, 5, 2, 3}) + "/PENTA6/2\n" + ints({4, 5, 6, 7, 1, 2, 3}));
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(r.model.bricks.nodes[0], (std::array<Index, 8>{0, 1, 2, 3, 4, 5, 6, 7}));
-  EXPECT_EQ(r.model.bricks.nodes[1], (std::array<Index, 8>{0, 0, 2, 2, 4, 1, 1, 4}));   // n2 and n4 exchanged
+  EXPECT_EQ(r.model.bricks.nodes[1], (std::array<Index, 8>{0, 0, 2, 2, 4, 1, 1, 4}));  // n2 and n4 exchanged
   EXPECT_EQ(r.model.tetras.nodes[0], (std::array<Index, 4>{0, 2, 1, 4}));
   EXPECT_EQ(r.model.bricks.nodes[2], (std::array<Index, 8>{0, 1, 2, 0, 4, 5, 6, 4}));
   EXPECT_GT(one_point_volume(corners(r.model, 0)), 0.0);
-  EXPECT_EQ(r.messages(Severity::warning)[0], "t_0000.rad:34: warning: /BRICK/2: 2 elements with negative volume were turned inside out, the first is 1");
+  EXPECT_EQ(r.messages(Severity::warning)[0],
+            "t_0000.rad:34: warning: /BRICK/2: 2 elements with negative volume were turned inside out, the first is 1");
 }
 
 TEST(Mesh, BadElementsSayWhatWouldBeRight) {
   Reading r;
-  r.read(head() + cube() + "/SHELL/1\n" + ints({1, 1, 2, 3, 99}) + ints({2, 1, 2, 1, 2}) + ints({3, 1, 2}) + ints({-4, 1, 2, 3, 4}) + "/BRICK/2\n" +
-         ints({1, 1, 2, 3, 4, 1, 2, 3, 4}) + "/BRICK/1\n" + ints({5, 1, 2, 3, 4, 5, 6, 7, 8}) + "/SHELL/8\n" + ints({6, 1, 2, 3, 4}) + "/SHELL/1\n" + ints({7, 1, 2, 3, 4}) +
-         ints({7, 1, 2, 3, 4}));
-  EXPECT_EQ(r.errors(), (Strings{
-                            "t_0000.rad:35: /SHELL/1 field 'n4' (columns 41-50): no /NODE with id 99",
-                            "t_0000.rad:36: /SHELL/1 field 'n1-n4' (columns 11-50): element 2 has no area: its nodes must be distinct and not on one line",
-                            "t_0000.rad:37: /SHELL/1 field 'n3' (columns 31-40): element 3 lacks this node: a node id is needed",
-                            "t_0000.rad:37: /SHELL/1 field 'n4' (columns 41-50): element 3 lacks this node: a node id is needed",
-                            "t_0000.rad:38: /SHELL/1 field 'id' (columns 1-10): -4 is not an id: a positive integer is needed",
-                            "t_0000.rad:40: /BRICK/2 field 'n1-n8' (columns 11-90): element 1 has no volume: its nodes must not lie in one plane or coincide",
-                            "t_0000.rad:41: /BRICK/1: part 1 has property 1, which is not for solids: /PROP/SOLID is needed",
-                            "t_0000.rad:43: /SHELL/8: no /PART with id 8",
-                            "t_0000.rad:47: /SHELL/1: a second /SHELL with id 7 (the first is at t_0000.rad:46): ids must be unique",
-                        }));
+  r.read(head() + cube() + "/SHELL/1\n" + ints({1, 1, 2, 3, 99}) + ints({2, 1, 2, 1, 2}) + ints({3, 1, 2}) + ints({-4, 1, 2, 3, 4}) +
+         "/BRICK/2\n" + ints({1, 1, 2, 3, 4, 1, 2, 3, 4}) + "/BRICK/1\n" + ints({5, 1, 2, 3, 4, 5, 6, 7, 8}) + "/SHELL/8\n" +
+         ints({6, 1, 2, 3, 4}) + "/SHELL/1\n" + ints({7, 1, 2, 3, 4}) + ints({7, 1, 2, 3, 4}));
+  EXPECT_EQ(
+      r.errors(),
+      (Strings{
+          "t_0000.rad:35: /SHELL/1 field 'n4' (columns 41-50): no /NODE with id 99",
+          "t_0000.rad:36: /SHELL/1 field 'n1-n4' (columns 11-50): element 2 has no area: its nodes must be distinct and not on one line",
+          "t_0000.rad:37: /SHELL/1 field 'n3' (columns 31-40): element 3 lacks this node: a node id is needed",
+          "t_0000.rad:37: /SHELL/1 field 'n4' (columns 41-50): element 3 lacks this node: a node id is needed",
+          "t_0000.rad:38: /SHELL/1 field 'id' (columns 1-10): -4 is not an id: a positive integer is needed",
+          "t_0000.rad:40: /BRICK/2 field 'n1-n8' (columns 11-90): element 1 has no volume: its nodes must not lie in one plane or coincide",
+          "t_0000.rad:41: /BRICK/1: part 1 has property 1, which is not for solids: /PROP/SOLID is needed",
+          "t_0000.rad:43: /SHELL/8: no /PART with id 8",
+          "t_0000.rad:47: /SHELL/1: a second /SHELL with id 7 (the first is at t_0000.rad:46): ids must be unique",
+      }));
 }
 
 TEST(Mesh, BadNodesSayWhatWouldBeRight) {
   Reading r;
-  r.read(std::string(begin_2022) + "/NODE\n" + node(1, "1.2.3", "0", "0") + node(1, "0", "0", "0") + node(0, "0", "0", "0") + node(-3, "0", "0", "0") +
-         "       abc                   0                   0                   0\n\n" + node(9, "1e999", "&gap", "0"));
-  EXPECT_EQ(r.errors(), (Strings{
-                            "t_0000.rad:7: /NODE field 'X' (columns 11-30): '1.2.3' is not a real number",
-                            "t_0000.rad:9: /NODE field 'node_ID' (columns 1-10): 0 is not an id: a positive integer is needed",
-                            "t_0000.rad:10: /NODE field 'node_ID' (columns 1-10): -3 is not an id: a positive integer is needed",
-                            "t_0000.rad:11: /NODE field 'node_ID' (columns 1-10): 'abc' is not an integer",
-                            "t_0000.rad:13: /NODE field 'X' (columns 11-30): '1e999' is not a real number",
-                            "t_0000.rad:13: /NODE field 'Y' (columns 31-50): '&gap' refers to a /PARAMETER, which is not supported: write the number",
-                            "t_0000.rad:8: /NODE: a second /NODE with id 1 (the first is at t_0000.rad:7): ids must be unique",
-                        }));
+  r.read(std::string(begin_2022) + "/NODE\n" + node(1, "1.2.3", "0", "0") + node(1, "0", "0", "0") + node(0, "0", "0", "0") +
+         node(-3, "0", "0", "0") + "       abc                   0                   0                   0\n\n" +
+         node(9, "1e999", "&gap", "0"));
+  EXPECT_EQ(r.errors(),
+            (Strings{
+                "t_0000.rad:7: /NODE field 'X' (columns 11-30): '1.2.3' is not a real number",
+                "t_0000.rad:9: /NODE field 'node_ID' (columns 1-10): 0 is not an id: a positive integer is needed",
+                "t_0000.rad:10: /NODE field 'node_ID' (columns 1-10): -3 is not an id: a positive integer is needed",
+                "t_0000.rad:11: /NODE field 'node_ID' (columns 1-10): 'abc' is not an integer",
+                "t_0000.rad:13: /NODE field 'X' (columns 11-30): '1e999' is not a real number",
+                "t_0000.rad:13: /NODE field 'Y' (columns 31-50): '&gap' refers to a /PARAMETER, which is not supported: write the number",
+                "t_0000.rad:8: /NODE: a second /NODE with id 1 (the first is at t_0000.rad:7): ids must be unique",
+            }));
 }
 
 TEST(Mesh, PartsNeedAPropertyAndElementsAMaterial) {
   Reading r;
-  r.read(std::string(begin_2022) + steel + shell_property + "/PART/1\na\n         0         1\n/PART/2\nb\n         7         8\n/PART/3\nc\n         1\n" + cube() +
-         "/SHELL/3\n" + ints({1, 1, 2, 3, 4}) + "/PART/x\nd\n         1         1\n");
+  r.read(std::string(begin_2022) + steel + shell_property +
+         "/PART/1\na\n         0         1\n/PART/2\nb\n         7         8\n/PART/3\nc\n         1\n" + cube() + "/SHELL/3\n" +
+         ints({1, 1, 2, 3, 4}) + "/PART/x\nd\n         1         1\n");
   EXPECT_EQ(r.errors(), (Strings{
                             "t_0000.rad:17: /PART/1 field 'prop_ID' (columns 1-10): a part needs a property: the id of a /PROP block",
                             "t_0000.rad:20: /PART/2 field 'prop_ID' (columns 1-10): no /PROP with id 7",
@@ -127,15 +141,16 @@ TEST(Mesh, DegenerateShellIsATriangleWithAWarning) {
 
 TEST(Mesh, IdsMayBeHugeAndSparse) {
   Reading r;
-  r.read(head() + "/NODE\n" + node(1, "0", "0", "0") + node(999999999, "1", "0", "0") + node(2147483648L, "1", "1", "0") + node(5, "0", "1", "0") + "/SHELL/1\n" +
-         ints({9999999999L, 1, 999999999, 2147483648L, 5}));
+  r.read(head() + "/NODE\n" + node(1, "0", "0", "0") + node(999999999, "1", "0", "0") + node(2147483648L, "1", "1", "0") +
+         node(5, "0", "1", "0") + "/SHELL/1\n" + ints({9999999999L, 1, 999999999, 2147483648L, 5}));
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(r.model.shells.nodes[0], (std::array<Index, 4>{0, 2, 3, 1}));
 }
 
 TEST(Functions, MoveFunctionScalesShiftsAndReverses) {
   Reading r;
-  r.read(std::string(begin_2022) + "/FUNCT/4\nf\n" + reals({"0", "1"}) + reals({"2", "5"}) + "/MOVE_FUNCT/4\nm\n" + reals({"-1", "0", "3", "10"}));
+  r.read(std::string(begin_2022) + "/FUNCT/4\nf\n" + reals({"0", "1"}) + reals({"2", "5"}) + "/MOVE_FUNCT/4\nm\n" +
+         reals({"-1", "0", "3", "10"}));
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(r.model.functions[0].x, (std::vector<double>{1.0, 3.0}));
   EXPECT_EQ(r.model.functions[0].y, (std::vector<double>{15.0, 11.0}));
@@ -150,12 +165,15 @@ TEST(Functions, Surprise9MissingFieldsOfMoveFunctionAreZero) {
 
 TEST(Functions, PointsAscendAndAreAtLeastTwo) {
   Reading r;
-  r.read(std::string(begin_2022) + "/FUNCT/4\nf\n" + reals({"1", "1"}) + reals({"1", "5"}) + "/FUNCT/5\nf\n" + reals({"1", "1"}) + "/MOVE_FUNCT/6\n");
-  EXPECT_EQ(r.errors(), (Strings{
-                            "t_0000.rad:9: /FUNCT/4 field 'X' (columns 1-20): abscissa 1 is not larger than the one before, 1: points go in ascending order",
-                            "t_0000.rad:10: /FUNCT/5: 1 points: a function needs at least 2",
-                            "t_0000.rad:13: /MOVE_FUNCT/6: no /FUNCT with id 6 to move",
-                        }));
+  r.read(std::string(begin_2022) + "/FUNCT/4\nf\n" + reals({"1", "1"}) + reals({"1", "5"}) + "/FUNCT/5\nf\n" + reals({"1", "1"}) +
+         "/MOVE_FUNCT/6\n");
+  EXPECT_EQ(
+      r.errors(),
+      (Strings{
+          "t_0000.rad:9: /FUNCT/4 field 'X' (columns 1-20): abscissa 1 is not larger than the one before, 1: points go in ascending order",
+          "t_0000.rad:10: /FUNCT/5: 1 points: a function needs at least 2",
+          "t_0000.rad:13: /MOVE_FUNCT/6: no /FUNCT with id 6 to move",
+      }));
 }
 
 TEST(Skews, FixedAxesKeepZAndRebuildTheOthers) {
@@ -178,8 +196,8 @@ TEST(Skews, BeforeVersion120ThereIsNoOriginCard) {
 
 TEST(Skews, MovingAxesFollowThreeNodesInEveryDirection) {
   Reading r;
-  r.read(std::string(begin_2022) + cube() + "/SKEW/MOV/1\ns\n" + ints({1, 2, 3}) + "/SKEW/MOV/2\ns\n" + ints({1, 2, 3}).substr(0, 30) + "         Y\n/SKEW/MOV2/3\ns\n" +
-         ints({1, 5, 2}));
+  r.read(std::string(begin_2022) + cube() + "/SKEW/MOV/1\ns\n" + ints({1, 2, 3}) + "/SKEW/MOV/2\ns\n" + ints({1, 2, 3}).substr(0, 30) +
+         "         Y\n/SKEW/MOV2/3\ns\n" + ints({1, 5, 2}));
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(r.model.skews[0].axes[0], (Vec3{1, 0, 0}));
   EXPECT_EQ(r.model.skews[0].axes[1], (Vec3{0, 1, 0}));
@@ -195,14 +213,15 @@ TEST(Skews, MovingAxesFollowThreeNodesInEveryDirection) {
 
 TEST(Skews, DegenerateAxesAreErrors) {
   Reading r;
-  r.read(std::string(begin_2022) + cube() + "/SKEW/MOV/1\ns\n" + ints({1, 2, 2}) + "/SKEW/MOV/2\ns\n" + ints({1, 2}) + "/SKEW/FIX/3\ns\n\n" + reals({"1"}) + reals({"2"}) +
-         "/SKEW/OLD/4\n");
-  EXPECT_EQ(r.errors(), (Strings{
-                            "t_0000.rad:17: /SKEW/MOV/1 field 'node_ID3' (columns 1-30): the three nodes lie on one line: they must span a plane",
-                            "t_0000.rad:20: /SKEW/MOV/2 field 'node_ID3' (columns 21-30): a moving skew needs three nodes",
-                            "t_0000.rad:25: /SKEW/FIX/3 field 'Z'' (columns 1-60): the vectors of y' and z' are parallel: they must span a plane",
-                            "t_0000.rad:26: /SKEW/OLD/4: the types of /SKEW are FIX, MOV and MOV2",
-                        }));
+  r.read(std::string(begin_2022) + cube() + "/SKEW/MOV/1\ns\n" + ints({1, 2, 2}) + "/SKEW/MOV/2\ns\n" + ints({1, 2}) +
+         "/SKEW/FIX/3\ns\n\n" + reals({"1"}) + reals({"2"}) + "/SKEW/OLD/4\n");
+  EXPECT_EQ(r.errors(),
+            (Strings{
+                "t_0000.rad:17: /SKEW/MOV/1 field 'node_ID3' (columns 1-30): the three nodes lie on one line: they must span a plane",
+                "t_0000.rad:20: /SKEW/MOV/2 field 'node_ID3' (columns 21-30): a moving skew needs three nodes",
+                "t_0000.rad:25: /SKEW/FIX/3 field 'Z'' (columns 1-60): the vectors of y' and z' are parallel: they must span a plane",
+                "t_0000.rad:26: /SKEW/OLD/4: the types of /SKEW are FIX, MOV and MOV2",
+            }));
 }
 
 }  // namespace

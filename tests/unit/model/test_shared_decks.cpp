@@ -25,7 +25,11 @@ Counts count_lines(const std::string& path) {
     if (s[0] == '#') continue;
     if (s[0] == '/') {
       const std::string word = s.substr(0, s.find_first_of("/ \r\n", 1));
-      target = word == "/NODE" ? &counts.nodes : word == "/SHELL" ? &counts.shells : word == "/SH3N" ? &counts.sh3ns : word == "/BRICK" ? &counts.bricks : &unused;
+      target = word == "/NODE"    ? &counts.nodes
+               : word == "/SHELL" ? &counts.shells
+               : word == "/SH3N"  ? &counts.sh3ns
+               : word == "/BRICK" ? &counts.bricks
+                                  : &unused;
       continue;
     }
     if (s.find_first_not_of(" \r\n") != std::string::npos) ++*target;
@@ -61,12 +65,31 @@ TEST(SharedDecks, AreReadWithoutAnErrorAndCompletely) {
       EXPECT_FALSE(s.segments.empty());
       for (const Segment& seg : s.segments) EXPECT_NE(seg.element.kind, ElementKind::none) << "surface " << s.id;
     }
-    std::printf("%-24s v%d nodes %zu shells %zu sh3n %zu bricks %zu parts %zu groups %zu surfaces %zu warnings %d\n", name.c_str(), r.model.version,
-                counts.nodes, counts.shells, counts.sh3ns, counts.bricks, r.model.parts.size(), r.model.node_groups.size(), r.model.surfaces.size(),
-                r.diagnostics.warning_count());
+    std::printf("%-24s v%d nodes %zu shells %zu sh3n %zu bricks %zu parts %zu groups %zu surfaces %zu warnings %d\n", name.c_str(),
+                r.model.version, counts.nodes, counts.shells, counts.sh3ns, counts.bricks, r.model.parts.size(), r.model.node_groups.size(),
+                r.model.surfaces.size(), r.diagnostics.warning_count());
     ++decks;
   }
   EXPECT_GT(decks, 0);
+}
+
+TEST(ExampleDeck, TwoBlocksHasTheSurfacesItsTextSays) {
+  Reading r;
+  deck::DeckPair pair = deck::read(std::filesystem::path(ABUT_SOURCE_DIR) / "examples/decks/twoblocks/twoblocks_0000.rad", r.diagnostics);
+  EXPECT_TRUE(pair.has_engine);
+  r.deck = std::move(pair.starter);
+  r.attach();
+  read_control(r.context);
+  check_keywords(r.context);
+  read_mesh(r.context);
+  read_sets(r.context);
+  EXPECT_EQ(r.errors(), std::vector<std::string>{});
+  EXPECT_EQ(r.model.node_id.size(), 16u);
+  EXPECT_EQ(r.model.bricks.size(), 2);
+  ASSERT_EQ(r.model.surfaces.size(), 2u);
+  for (const Surface& s : r.model.surfaces) EXPECT_EQ(s.segments.size(), 6u);
+  EXPECT_EQ(r.model.node_groups[0].nodes.size(), 8u);
+  EXPECT_EQ(r.model.units.length, 1e-3);
 }
 
 }  // namespace
