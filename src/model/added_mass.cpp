@@ -26,7 +26,9 @@ void add_to_parts(BlockReader& r, const std::vector<Index>& parts, double mass) 
   double total = 0.0;
   for_each_element(m, [&](std::span<const Index>, Index part, double element) { total += is_chosen(part) ? element : 0.0; });
   if (total <= 0.0) {
-    if (!parts.empty()) r.error("model.no_mass", {21, 30}, "part", "these parts have no mass of their own to which mass could be added; use /ADMAS/1 with a node group");
+    if (!parts.empty())
+      r.error("model.no_mass", {21, 30}, "part",
+              "these parts have no mass of their own to which mass could be added; use /ADMAS/1 with a node group");
     return;
   }
   for_each_element(m, [&](std::span<const Index> nodes, Index part, double element) {

@@ -45,8 +45,7 @@ void refuse(Context& c, const deck::Block& block, std::string message);
 [[nodiscard]] int read_direction(BlockReader& r, deck::Columns c, std::string_view field);
 
 /// Integer that must lie in [low, high]; `what_is_right` completes "<value> is not ...".
-[[nodiscard]] int integer_in(BlockReader& r, deck::Columns c, std::string_view field, int low, int high,
-                             std::string_view what_is_right);
+[[nodiscard]] int integer_in(BlockReader& r, deck::Columns c, std::string_view field, int low, int high, std::string_view what_is_right);
 
 /// Where the deck defines keyword `word` ("INTER") with this id for the `nth` time (0: first); without a line if it does not.
 [[nodiscard]] Place place_of(const Context& c, std::string_view word, Id id, int nth = 0);

@@ -43,7 +43,8 @@ Vec3 to_global(BlockReader& r, const Vec3& local, Index skew, deck::Columns colu
 void refuse_delay(BlockReader& r) {
   if (!r.next_card()) return;
   if (r.real({1, 20}, "Tstart", dim::time) != 0.0 || r.integer({21, 30}, "sens_ID") != 0) {
-    r.error("model.unsupported", {1, 30}, "Tstart", "an initial velocity that starts later is not supported; leave Tstart and sens_ID blank");
+    r.error("model.unsupported", {1, 30}, "Tstart",
+            "an initial velocity that starts later is not supported; leave Tstart and sens_ID blank");
   }
 }
 
@@ -239,17 +240,15 @@ void read_conditions(Context& c) {
   }
   Model& m = *c.model;
   order_by_id(c, m.boundary_conditions, "BCS", true);
-  std::stable_sort(m.imposed_motions.begin(), m.imposed_motions.end(), [](const ImposedMotion& a, const ImposedMotion& b) {
-    return a.kind != b.kind ? a.kind < b.kind : a.id < b.id;
-  });
+  std::stable_sort(m.imposed_motions.begin(), m.imposed_motions.end(),
+                   [](const ImposedMotion& a, const ImposedMotion& b) { return a.kind != b.kind ? a.kind < b.kind : a.id < b.id; });
   order_by_id(c, m.concentrated_loads, "CLOAD", true);
   order_by_id(c, m.pressure_loads, "PLOAD", true);
   order_by_id(c, m.gravities, "GRAV", true);
   order_by_id(c, m.rigid_bodies, "RBODY", false);
   order_by_id(c, m.rigid_walls, "RWALL", false);
   // Initial velocities keep the order of the deck: where two touch one node the last one wins (D.2).
-  std::stable_sort(m.added_masses.begin(), m.added_masses.end(),
-                   [](const AddedMass& a, const AddedMass& b) { return a.node < b.node; });
+  std::stable_sort(m.added_masses.begin(), m.added_masses.end(), [](const AddedMass& a, const AddedMass& b) { return a.node < b.node; });
   fill_table(c.tables.rigid_bodies, m.rigid_bodies);
   fill_table(c.tables.rigid_walls, m.rigid_walls);
 }

@@ -94,9 +94,9 @@ class FreeFormat {
 
 /// Spellings that mean one field (deck-format.md A.3).
 std::string animation_field(const deck::Block& block) {
-  static const std::map<std::string, std::string> synonyms{
-      {"HOUR", "HOURG"}, {"PRES", "P"},        {"DMASS", "DMAS"},   {"ACCEL", "ACC"},     {"BRIC", "BRICK"},
-      {"EPSDO", "EPSDOT"}, {"STRES", "STRESS"}, {"STRAI", "STRAIN"}, {"VELO", "VEL"},      {"SHEL", "SHELL"}};
+  static const std::map<std::string, std::string> synonyms{{"HOUR", "HOURG"}, {"PRES", "P"},       {"DMASS", "DMAS"},   {"ACCEL", "ACC"},
+                                                           {"BRIC", "BRICK"}, {"EPSDO", "EPSDOT"}, {"STRES", "STRESS"}, {"STRAI", "STRAIN"},
+                                                           {"VELO", "VEL"},   {"SHEL", "SHELL"}};
   std::string field;
   for (std::size_t i = 1; i < block.words.size(); ++i) {
     std::string word = upper(block.words[i]);
@@ -126,9 +126,10 @@ class EngineReader {
       c_.diagnostics->error("engine.missing_run", place, "the Engine deck has no /RUN/name/1 with the final time on the line below");
     }
     if (!refused_.empty()) {
-      c_.diagnostics->error("engine.unsupported", place,
-                            fmt::format("these keywords are not supported, and without them the result would be wrong: {}; take them out to run without",
-                                        fmt::join(refused_, ", ")));
+      c_.diagnostics->error(
+          "engine.unsupported", place,
+          fmt::format("these keywords are not supported, and without them the result would be wrong: {}; take them out to run without",
+                      fmt::join(refused_, ", ")));
     }
     if (!skipped_.empty()) {
       c_.diagnostics->note("engine.skipped", place,
@@ -194,7 +195,8 @@ class EngineReader {
       const auto number = deck::parse_integer(block.word(2));
       if (!number || *number != 1) {
         c_.diagnostics->error("engine.bad_run", engine_.place(block),
-                              fmt::format("'{}' is not run 1; a run that continues another one is not supported, write /RUN/{}/1", block.word(2), k_.run_name));
+                              fmt::format("'{}' is not run 1; a run that continues another one is not supported, write /RUN/{}/1",
+                                          block.word(2), k_.run_name));
       }
     }
     FreeFormat d = data(block);
@@ -204,7 +206,8 @@ class EngineReader {
     }
     const int errors = c_.diagnostics->error_count();
     k_.t_end = d.real(0, "Tstop");
-    if (k_.t_end <= 0.0 && c_.diagnostics->error_count() == errors) d.bad(0, "Tstop", fmt::format("{} is not a final time; it must be greater than 0", k_.t_end));
+    if (k_.t_end <= 0.0 && c_.diagnostics->error_count() == errors)
+      d.bad(0, "Tstop", fmt::format("{} is not a final time; it must be greater than 0", k_.t_end));
     return true;
   }
 
@@ -223,7 +226,8 @@ class EngineReader {
   bool read_print(const deck::Block& block) {
     const auto every = deck::parse_integer(block.word(1));
     if (!every) {
-      c_.diagnostics->warning("engine.bad_value", engine_.place(block), fmt::format("'{}' is not a number of cycles; the listing has a line every 100", block.word(1)));
+      c_.diagnostics->warning("engine.bad_value", engine_.place(block),
+                              fmt::format("'{}' is not a number of cycles; the listing has a line every 100", block.word(1)));
     } else if (*every != 0) {
       k_.print_every = static_cast<int>(std::min<Id>(std::abs(*every), 1000000000));
     }
@@ -309,8 +313,8 @@ class EngineReader {
 
   bool read_contact_step(const deck::Block& block, const std::string& action) {
     using Action = StepControl::Action;
-    static const std::map<std::string, Action> actions{
-        {"", Action::none}, {"STOP", Action::stop}, {"DEL", Action::remove}, {"CST", Action::constant}, {"CST1", Action::constant}, {"CST2", Action::constant}};
+    static const std::map<std::string, Action> actions{{"", Action::none},        {"STOP", Action::stop},     {"DEL", Action::remove},
+                                                       {"CST", Action::constant}, {"CST1", Action::constant}, {"CST2", Action::constant}};
     const auto found = actions.find(action);
     if (found == actions.end()) return false;
     FreeFormat d = data(block);
@@ -326,7 +330,8 @@ class EngineReader {
     k_.dt_initial = d.positive(0, "dt_ini");
     const double largest = d.positive(1, "dt_max");
     k_.dt_max = largest > 0.0 ? largest : infinity;
-    if (k_.dt_initial > k_.dt_max) d.bad(0, "dt_ini", fmt::format("the first step {} is larger than the largest one {}", k_.dt_initial, k_.dt_max));
+    if (k_.dt_initial > k_.dt_max)
+      d.bad(0, "dt_ini", fmt::format("the first step {} is larger than the largest one {}", k_.dt_initial, k_.dt_max));
     return true;
   }
 
@@ -353,9 +358,8 @@ class EngineReader {
     for (const Id id : d.integers(0, "node_ID")) {
       (on ? k_.rbody_on : k_.rbody_off).push_back(id);
       const auto node = c_.tables.nodes.find(id);
-      const auto body = std::find_if(c_.model->rigid_bodies.begin(), c_.model->rigid_bodies.end(), [&](const RigidBody& b) {
-        return node != c_.tables.nodes.end() && b.main == node->second;
-      });
+      const auto body = std::find_if(c_.model->rigid_bodies.begin(), c_.model->rigid_bodies.end(),
+                                     [&](const RigidBody& b) { return node != c_.tables.nodes.end() && b.main == node->second; });
       if (body == c_.model->rigid_bodies.end()) {
         d.bad(0, "node_ID", fmt::format("node {} is not the main node of a /RBODY", id));
       } else {

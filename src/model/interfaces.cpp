@@ -46,11 +46,13 @@ void read_times(BlockReader& r, Interface& i) {
 void read_stiffness_card(BlockReader& r, Interface& i) {
   i.stfac = r.real({1, 20}, "Stfac");
   if (i.stfac < 0.0) {
-    r.error("model.out_of_range", {1, 20}, "Stfac", "a stiffness factor cannot be negative: contact would pull; write a value between 0 and 1, or 0 for 0.2");
+    r.error("model.out_of_range", {1, 20}, "Stfac",
+            "a stiffness factor cannot be negative: contact would pull; write a value between 0 and 1, or 0 for 0.2");
   }
   if (i.stfac == 0.0) i.stfac = 0.2;
   if (i.stfac >= 1.0) {
-    r.warning("model.stiff_contact", {1, 20}, "Stfac", fmt::format("{} is not below 1; contact this stiff lowers the time step, 0.2 is usual", i.stfac));
+    r.warning("model.stiff_contact", {1, 20}, "Stfac",
+              fmt::format("{} is not below 1; contact this stiff lowers the time step, 0.2 is usual", i.stfac));
   }
   i.friction = non_negative(r, {21, 40}, "Fric", dim::none, "a friction coefficient");
   i.gap = non_negative(r, {41, 60}, "Gap", dim::length, "a gap");
@@ -78,7 +80,8 @@ void read_coefficients(BlockReader& r, Interface& i) {
   constexpr std::array<std::string_view, 6> names{"C1", "C2", "C3", "C4", "C5", "C6"};
   r.next_card();
   for (int k = 0; k < 5; ++k) {
-    i.c[static_cast<std::size_t>(k)] = r.real({20 * k + 1, 20 * k + 20}, names[static_cast<std::size_t>(k)], coefficient_dimension(i.ifric, k));
+    i.c[static_cast<std::size_t>(k)] =
+        r.real({20 * k + 1, 20 * k + 20}, names[static_cast<std::size_t>(k)], coefficient_dimension(i.ifric, k));
   }
   if (i.ifric <= 1) return;
   r.next_card();
@@ -116,7 +119,8 @@ Interface read_type3(Context& c, const deck::Block& block) {
   t.surface_1 = required_surface(r, {1, 10}, "surf_ID1");
   t.surface_2 = required_surface(r, {11, 20}, "surf_ID2");
   if (t.surface_1 != no_index && t.surface_1 == t.surface_2) {
-    r.error("model.same_surface", {11, 20}, "surf_ID2", "both surfaces are the same; TYPE3 joins two surfaces without a common node (self contact is /INTER/TYPE7)");
+    r.error("model.same_surface", {11, 20}, "surf_ID2",
+            "both surfaces are the same; TYPE3 joins two surfaces without a common node (self contact is /INTER/TYPE7)");
   }
   if (!old_layout(c)) i.idel = read_idel(r, {71, 80});
   r.next_card();
@@ -196,7 +200,8 @@ void read_type7_head(BlockReader& r, Interface& i, InterfaceType7& t) {
   t.surface = required_surface(r, {11, 20}, "surf_IDm");
   if (nodes != no_index) t.nodes = c.model->node_groups[static_cast<std::size_t>(nodes)].nodes;
   if (group == 0 && t.surface != no_index) {  // self contact: the nodes of the surface itself
-    for (const Segment& s : c.model->surfaces[static_cast<std::size_t>(t.surface)].segments) t.nodes.insert(t.nodes.end(), s.nodes.begin(), s.nodes.end());
+    for (const Segment& s : c.model->surfaces[static_cast<std::size_t>(t.surface)].segments)
+      t.nodes.insert(t.nodes.end(), s.nodes.begin(), s.nodes.end());
     std::sort(t.nodes.begin(), t.nodes.end());
     t.nodes.erase(std::unique(t.nodes.begin(), t.nodes.end()), t.nodes.end());
   }
@@ -236,7 +241,8 @@ void read_type7_stiffness(BlockReader& r, Interface& i, InterfaceType7& t) {
     return;
   }
   if (i.stfac < 0.0 && t.istf > 1) {
-    r.error("model.out_of_range", {1, 20}, "Stfac", "a negative stiffness factor has a meaning with Istf 0 or 1 only; write a positive value");
+    r.error("model.out_of_range", {1, 20}, "Stfac",
+            "a negative stiffness factor has a meaning with Istf 0 or 1 only; write a positive value");
   }
   const bool is_stiffness = (t.istf == 1) != (i.stfac < 0.0);
   i.stfac = std::abs(i.stfac);

@@ -10,9 +10,7 @@ namespace {
 
 const Vec3& position(const Model& m, Index node) { return m.node_x[static_cast<std::size_t>(node)]; }
 
-const Part* part_at(const Model& m, Index part) {
-  return part == no_index ? nullptr : &m.parts[static_cast<std::size_t>(part)];
-}
+const Part* part_at(const Model& m, Index part) { return part == no_index ? nullptr : &m.parts[static_cast<std::size_t>(part)]; }
 
 }  // namespace
 

@@ -96,16 +96,17 @@ Index SegmentOrientation::apply(Context& c, Index surface, int flag, const Place
   int cleaned = 0;
   for (Segment& s : segments) cleaned += clean(s.nodes) ? 1 : 0;
   if (cleaned > 0) {
-    c.diagnostics->warning("model.repeated_corner", place,
-                           fmt::format("{} segments of surface {} name a corner twice; they are used as triangles (write the third node twice)",
-                                       cleaned, id));
+    c.diagnostics->warning(
+        "model.repeated_corner", place,
+        fmt::format("{} segments of surface {} name a corner twice; they are used as triangles (write the third node twice)", cleaned, id));
   }
   int turned = 0;
   if (flag == 0) {
     turned = turn_outward(m, segments);
     if (turned > 0) {
-      c.diagnostics->note("model.segments_turned", place,
-                          fmt::format("{} of {} segments of surface {} looked into their solid and were turned", turned, segments.size(), id));
+      c.diagnostics->note(
+          "model.segments_turned", place,
+          fmt::format("{} of {} segments of surface {} looked into their solid and were turned", turned, segments.size(), id));
     }
   } else if (flag == 1) {
     for (Segment& s : segments) {

@@ -52,6 +52,11 @@ void read_section(Context& c, const deck::Block& block) {
     return group == no_index ? std::vector<Index>{} : groups[static_cast<std::size_t>(group)].members;
   };
   s.bricks = members(c.tables.brick_groups, c.brick_groups, {1, 10}, "grbric_ID", "/GRBRIC");
+  const std::size_t solids = s.bricks.size();  // the group counts tetrahedra after the bricks
+  std::erase_if(s.bricks, [&](Index k) { return k >= c.model->bricks.size(); });
+  if (s.bricks.size() < solids) {
+    r.warning("model.left_out", {1, 10}, "grbric_ID", "tetrahedra do not count in the forces of a section; cut through bricks or shells");
+  }
   s.shells = members(c.tables.shell_groups, c.shell_groups, {21, 30}, "grshel_ID", "/GRSHEL");
   s.sh3ns = members(c.tables.sh3n_groups, c.sh3n_groups, {61, 70}, "grsh3n_ID", "/GRSH3N");
   const Id interfaces = r.integer({71, 80}, "Niter");
@@ -107,7 +112,8 @@ class HistoryReader {
       case ThKind::node:
       case ThKind::shell:
       case ThKind::sh3n:
-      case ThKind::brick: return read_lines(r, *kind, variables);
+      case ThKind::brick:
+        return read_lines(r, *kind, variables);
       default:
         for (const Id id : r.id_list("object")) add(r, *kind, id, no_index, {}, variables);
     }
@@ -166,15 +172,24 @@ class HistoryReader {
   [[nodiscard]] const Tables::Map& table(ThKind kind) const {
     const Tables& t = c_.tables;
     switch (kind) {
-      case ThKind::node: return t.nodes;
-      case ThKind::part: return t.parts;
-      case ThKind::shell: return t.shells;
-      case ThKind::sh3n: return t.sh3ns;
-      case ThKind::brick: return t.bricks;
-      case ThKind::inter: return t.interfaces;
-      case ThKind::rwall: return t.rigid_walls;
-      case ThKind::rbody: return t.rigid_bodies;
-      default: return t.sections;
+      case ThKind::node:
+        return t.nodes;
+      case ThKind::part:
+        return t.parts;
+      case ThKind::shell:
+        return t.shells;
+      case ThKind::sh3n:
+        return t.sh3ns;
+      case ThKind::brick:
+        return t.bricks;
+      case ThKind::inter:
+        return t.interfaces;
+      case ThKind::rwall:
+        return t.rigid_walls;
+      case ThKind::rbody:
+        return t.rigid_bodies;
+      default:
+        return t.sections;
     }
   }
 

@@ -36,7 +36,8 @@ void read_rigid_body(Context& c, const deck::Block& block) {
   if (b.mass < 0.0) r.error("model.out_of_range", {41, 60}, "Mass", "an added mass cannot be negative; write 0 or more");
   b.nodes = required_group(r, {61, 70}, "grnd_ID");
   if (std::erase(b.nodes, b.main) > 0) {
-    r.warning("model.main_is_secondary", {61, 70}, "grnd_ID", "the main node is also in the group of secondary nodes; it is taken out of the group");
+    r.warning("model.main_is_secondary", {61, 70}, "grnd_ID",
+              "the main node is also in the group of secondary nodes; it is taken out of the group");
   }
   if (b.nodes.empty()) r.warning("model.empty_set", {61, 70}, "grnd_ID", "the rigid body has no secondary node and holds nothing");
   b.keep_in_walls = integer_in(r, {71, 80}, "Ikrem", 0, 1, "0 (secondary nodes leave rigid walls) or 1 (they stay)") == 1;
@@ -101,7 +102,8 @@ void read_rigid_wall(Context& c, const deck::Block& block) {
   const Vec3 normal = read_reals(r, {"X_M1", "Y_M1", "Z_M1"}, dim::length) - w.point;
   w.normal = normalized(normal);
   if (w.normal == Vec3{}) {
-    r.error("model.out_of_range", {1, 60}, "M1", "M and M1 are the same point; M1 must lie on the side where the nodes are, as M to M1 is the wall's normal");
+    r.error("model.out_of_range", {1, 60}, "M1",
+            "M and M1 are the same point; M1 must lie on the side where the nodes are, as M to M1 is the wall's normal");
   }
   if (search > 0.0) {
     // A node on the plane counts, whatever the rounding of the three products: 1e-12 of the sizes involved.
@@ -117,7 +119,8 @@ void read_rigid_wall(Context& c, const deck::Block& block) {
   std::set_difference(added.begin(), added.end(), removed.begin(), removed.end(), std::back_inserter(w.nodes));
   std::erase(w.nodes, w.node);
   if (w.nodes.empty()) {
-    c.diagnostics->warning("model.empty_set", r.place(), "no node can touch this wall; give a node group (grnd_ID1) or a search distance (Dsearch)");
+    c.diagnostics->warning("model.empty_set", r.place(),
+                           "no node can touch this wall; give a node group (grnd_ID1) or a search distance (Dsearch)");
   }
   c.model->rigid_walls.push_back(std::move(w));
 }

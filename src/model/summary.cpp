@@ -23,7 +23,7 @@ std::string titled(std::string_view kind, Id id, const std::string& title) {
 std::string law_of(const Model& m, Index material) {
   if (material == no_index) return "no material";
   const Material& mat = m.materials[static_cast<std::size_t>(material)];
-  const std::string_view law = std::holds_alternative<LawElastic>(mat.law)        ? "LAW1 elastic"
+  const std::string_view law = std::holds_alternative<LawElastic>(mat.law)       ? "LAW1 elastic"
                                : std::holds_alternative<LawJohnsonCook>(mat.law) ? "LAW2 Johnson-Cook"
                                                                                  : "LAW0 void";
   return fmt::format("material {} ({})", mat.id, law);
@@ -63,8 +63,8 @@ void write_parts(Out out, const Model& m) {
     for (std::size_t f = 0; f < names.size(); ++f) {
       if (counts[i][f] > 0) elements += fmt::format("{}{} {}", elements.empty() ? "" : ", ", counts[i][f], names[f]);
     }
-    fmt::format_to(out, "  {}: {}, mass {:.6g}, {}, {}\n", titled("part", p.id, p.title), elements.empty() ? "no element" : elements, masses[i],
-                   property_of(m, p.property), law_of(m, p.material));
+    fmt::format_to(out, "  {}: {}, mass {:.6g}, {}, {}\n", titled("part", p.id, p.title), elements.empty() ? "no element" : elements,
+                   masses[i], property_of(m, p.property), law_of(m, p.material));
   }
 }
 
@@ -102,7 +102,8 @@ void write_interface(Out out, const Model& m, const Interface& i) {
   }
   const auto* t7 = std::get_if<InterfaceType7>(&i.type);
   const std::string gap = t7 != nullptr && !t7->gap_given ? "automatic" : fmt::format("{:.6g}", i.gap);
-  fmt::format_to(out, "    {} {:.6g}, gap {}, friction {:.6g}", t7 != nullptr && t7->istf == 1 ? "stiffness" : "Stfac", i.stfac, gap, i.friction);
+  fmt::format_to(out, "    {} {:.6g}, gap {}, friction {:.6g}", t7 != nullptr && t7->istf == 1 ? "stiffness" : "Stfac", i.stfac, gap,
+                 i.friction);
   if (i.t_start > 0.0 || i.t_stop < infinity) {
     fmt::format_to(out, ", from {:.6g} to {}", i.t_start, i.t_stop < infinity ? fmt::format("{:.6g}", i.t_stop) : "the end");
   }
@@ -136,7 +137,8 @@ void write_conditions(Out out, const Model& m) {
   for (const RigidWall& w : m.rigid_walls) {
     constexpr std::array<std::string_view, 3> slide{"frictionless", "tied", "with friction"};
     fmt::format_to(lines, "  {}: {} plane{}, {} nodes, normal ({:.4g}, {:.4g}, {:.4g})\n", titled("rigid wall", w.id, w.title),
-                   slide[static_cast<std::size_t>(w.slide)], w.node == no_index ? "" : " that moves", w.nodes.size(), w.normal.x, w.normal.y, w.normal.z);
+                   slide[static_cast<std::size_t>(w.slide)], w.node == no_index ? "" : " that moves", w.nodes.size(), w.normal.x,
+                   w.normal.y, w.normal.z);
   }
   fmt::format_to(out, "\nConditions\n{}", text.empty() ? "  none\n" : text);
 }
@@ -165,8 +167,8 @@ std::string summary(const Model& m) {
   Out out(text);
   fmt::format_to(out, "{}{}{}\n", m.name, m.title.empty() ? "" : ": ", m.title);
   fmt::format_to(out, "  format {}, units {} {} {}\n", m.version, m.units.mass_name, m.units.length_name, m.units.time_name);
-  fmt::format_to(out, "  {} nodes, {} SHELL, {} SH3N, {} BRICK, {} TETRA4\n", m.node_count(), m.shells.size(), m.sh3ns.size(), m.bricks.size(),
-                 m.tetras.size());
+  fmt::format_to(out, "  {} nodes, {} SHELL, {} SH3N, {} BRICK, {} TETRA4\n", m.node_count(), m.shells.size(), m.sh3ns.size(),
+                 m.bricks.size(), m.tetras.size());
   write_parts(out, m);
   fmt::format_to(out, "\nInterfaces{}\n", m.interfaces.empty() ? ": none" : "");
   for (const Interface& i : m.interfaces) write_interface(out, m, i);

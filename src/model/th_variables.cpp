@@ -26,16 +26,15 @@ const Names normal_force{"FNX", "FNY", "FNZ"}, tangential_force{"FTX", "FTY", "F
 const Names both_forces{"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ"};
 
 KindTable shell_table(std::string_view word) {
-  Names variables{"F1",  "F2",   "F12",  "Q1", "Q2", "M1",  "M2",  "M12", "IEM", "IEB", "OFF", "THIC",
-                  "EMIN", "EMAX", "E1",   "E2", "E12", "SH1", "SH2", "K1",  "K2",  "K12", "EPSD"};
+  Names variables{"F1",   "F2",   "F12", "Q1", "Q2",  "M1",  "M2",  "M12", "IEM", "IEB", "OFF", "THIC",
+                  "EMIN", "EMAX", "E1",  "E2", "E12", "SH1", "SH2", "K1",  "K2",  "K12", "EPSD"};
   for (int i = 1; i <= 10; ++i) {
     for (const char* s : {"SX", "SY", "SXY", "SYZ", "SZX", "EPSP"}) variables.push_back(fmt::format("{}_{}", s, i));
   }
-  std::vector<std::pair<std::string, Names>> groups{
-      {"DEF", {"F1", "F2", "F12", "M1", "M2", "M12", "IEM", "IEB", "OFF", "EMIN", "EMAX"}},
-      {"STRESS", {"F1", "F2", "F12", "Q1", "Q2", "M1", "M2", "M12"}},
-      {"STRAIN", {"E1", "E2", "E12", "SH1", "SH2", "K1", "K2", "K12"}},
-      {"PLAS", {"EMIN", "EMAX"}}};
+  std::vector<std::pair<std::string, Names>> groups{{"DEF", {"F1", "F2", "F12", "M1", "M2", "M12", "IEM", "IEB", "OFF", "EMIN", "EMAX"}},
+                                                    {"STRESS", {"F1", "F2", "F12", "Q1", "Q2", "M1", "M2", "M12"}},
+                                                    {"STRAIN", {"E1", "E2", "E12", "SH1", "SH2", "K1", "K2", "K12"}},
+                                                    {"PLAS", {"EMIN", "EMAX"}}};
   for (int i = 1; i <= 10; ++i) {
     Names point;
     for (const char* s : {"SX", "SY", "SXY", "SYZ", "SZX"}) point.push_back(fmt::format("{}_{}", s, i));
@@ -48,8 +47,8 @@ KindTable shell_table(std::string_view word) {
 const std::array<KindTable, 10>& tables() {
   static const std::array<KindTable, 10> all{
       KindTable{"NODE",
-                {"DX", "DY", "DZ", "VX", "VY", "VZ", "AX", "AY", "AZ", "VRX", "VRY", "VRZ", "ARX", "ARY", "ARZ", "X", "Y", "Z", "TEMP",
-                 "REACX", "REACY", "REACZ", "REACXX", "REACYY", "REACZZ", "DRX", "DRY", "DRZ"},
+                {"DX",  "DY", "DZ", "VX", "VY",   "VZ",    "AX",    "AY",    "AZ",     "VRX",    "VRY",    "VRZ", "ARX", "ARY",
+                 "ARZ", "X",  "Y",  "Z",  "TEMP", "REACX", "REACY", "REACZ", "REACXX", "REACYY", "REACZZ", "DRX", "DRY", "DRZ"},
                 {{"DEF", {"DX", "DY", "DZ", "VX", "VY", "VZ"}},
                  {"D", {"DX", "DY", "DZ"}},
                  {"V", {"VX", "VY", "VZ"}},
@@ -58,22 +57,24 @@ const std::array<KindTable, 10>& tables() {
                  {"AR", {"ARX", "ARY", "ARZ"}},
                  {"XYZ", {"X", "Y", "Z"}}}},
       KindTable{"PART",
-                {"IE", "KE", "XMOM", "YMOM", "ZMOM", "MASS", "HE", "HEAT", "ERODED", "TURBKE", "XCG", "YCG", "ZCG", "XXMOM", "YYMOM", "ZZMOM",
-                 "IXX", "IYY", "IZZ", "IXY", "IYZ", "IZX", "RIE", "KERB", "RKERB", "RKE", "VX", "VY", "VZ", "PW"},
+                {"IE",    "KE",  "XMOM", "YMOM", "ZMOM", "MASS", "HE",  "HEAT", "ERODED", "TURBKE", "XCG", "YCG", "ZCG", "XXMOM", "YYMOM",
+                 "ZZMOM", "IXX", "IYY",  "IZZ",  "IXY",  "IYZ",  "IZX", "RIE",  "KERB",   "RKERB",  "RKE", "VX",  "VY",  "VZ",    "PW"},
                 {{"DEF", {"IE", "KE", "XMOM", "YMOM", "ZMOM", "MASS", "HE", "HEAT", "ERODED"}}}},
       shell_table("SHEL"),
       shell_table("SH3N"),
       KindTable{"BRIC",
-                {"OFF", "SX", "SY", "SZ", "SXY", "SYZ", "SXZ", "IE", "DENS", "BULK", "VOL", "PLAS", "TEMP", "PLSR", "DAM1", "DAM2", "DAM3", "DAM4",
-                 "DAM5", "LSX", "LSY", "LSZ", "LSXY", "LSYZ", "LSXZ", "EPSXX", "EPSYY", "EPSZZ", "EPSXY", "EPSYZ", "EPSXZ", "VSTRAIN"},
+                {"OFF",  "SX",   "SY",   "SZ",    "SXY",   "SYZ",   "SXZ",   "IE",    "DENS",  "BULK",   "VOL",
+                 "PLAS", "TEMP", "PLSR", "DAM1",  "DAM2",  "DAM3",  "DAM4",  "DAM5",  "LSX",   "LSY",    "LSZ",
+                 "LSXY", "LSYZ", "LSXZ", "EPSXX", "EPSYY", "EPSZZ", "EPSXY", "EPSYZ", "EPSXZ", "VSTRAIN"},
                 {{"DEF", {"OFF", "SX", "SY", "SZ", "SXY", "SYZ", "SXZ", "IE", "DENS", "PLAS", "TEMP"}},
                  {"STRESS", stress},
                  {"LOCSTRS", local_stress},
                  {"LOCSTRESS", local_stress},
                  {"STRAIN", brick_strain}}},
       KindTable{"INTER",
-                {"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ", "|FNX|", "|FNY|", "|FNZ|", "||FN||", "|FX|", "|FY|", "|FZ|", "||F||", "MX", "MY", "MZ",
-                 "CE_ELAST", "CE_FRIC", "CE_DAMP", "CAREA", "SFW", "QFRIC", "IFNX", "IFNY", "IFNZ", "IFTX", "IFTY", "IFTZ", "CE", "FW", "DW", "CX", "NC"},
+                {"FNX",  "FNY",   "FNZ",  "FTX",  "FTY",  "FTZ",      "|FNX|",   "|FNY|",   "|FNZ|", "||FN||", "|FX|",  "|FY|",
+                 "|FZ|", "||F||", "MX",   "MY",   "MZ",   "CE_ELAST", "CE_FRIC", "CE_DAMP", "CAREA", "SFW",    "QFRIC", "IFNX",
+                 "IFNY", "IFNZ",  "IFTX", "IFTY", "IFTZ", "CE",       "FW",      "DW",      "CX",    "NC"},
                 {{"DEF", both_forces},
                  {"FN", normal_force},
                  {"FT", tangential_force},
@@ -81,9 +82,9 @@ const std::array<KindTable, 10>& tables() {
                  {"|F|", {"|FX|", "|FY|", "|FZ|", "||F||"}}}},
       KindTable{"RWALL", both_forces, {{"DEF", both_forces}, {"FN", normal_force}, {"FT", tangential_force}}},
       KindTable{"RBODY",
-                {"FX",  "FY",  "FZ",  "MX", "MY", "MZ", "RX", "RY", "RZ", "FXI", "FYI", "FZI", "MXI", "MYI", "MZI", "X",   "Y",   "Z",  "DX",
-                 "DY",  "DZ",  "VX",  "VY", "VZ", "AX", "AY", "AZ", "VRX", "VRY", "VRZ", "ARX", "ARY", "ARZ", "MASS", "IXX", "IYY", "IZZ", "IXY",
-                 "IYZ", "IZX", "STATUS"},
+                {"FX",  "FY",  "FZ",  "MX",  "MY",  "MZ",   "RX",  "RY",  "RZ",  "FXI", "FYI", "FZI", "MXI",   "MYI",
+                 "MZI", "X",   "Y",   "Z",   "DX",  "DY",   "DZ",  "VX",  "VY",  "VZ",  "AX",  "AY",  "AZ",    "VRX",
+                 "VRY", "VRZ", "ARX", "ARY", "ARZ", "MASS", "IXX", "IYY", "IZZ", "IXY", "IYZ", "IZX", "STATUS"},
                 {{"DEF", {"FX", "FY", "FZ", "MX", "MY", "MZ", "RX", "RY", "RZ"}},
                  {"F", {"FX", "FY", "FZ"}},
                  {"M", {"MX", "MY", "MZ"}},
@@ -95,7 +96,8 @@ const std::array<KindTable, 10>& tables() {
                  {"V", {"VX", "VY", "VZ", "VRX", "VRY", "VRZ"}},
                  {"A", {"AX", "AY", "AZ", "ARX", "ARY", "ARZ"}}}},
       KindTable{"SECTIO",
-                {"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ", "M1", "M2", "M3", "MX", "MY", "MZ", "CX", "CY", "CZ", "F1", "F2", "F3", "WORK", "WORKR"},
+                {"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ", "M1", "M2", "M3",   "MX",
+                 "MY",  "MZ",  "CX",  "CY",  "CZ",  "F1",  "F2", "F3", "WORK", "WORKR"},
                 {{"DEF", {"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ", "M1", "M2", "M3"}},
                  {"FN", normal_force},
                  {"FT", tangential_force},

@@ -95,7 +95,8 @@ class Validator {
       if (!used[i]) empty.push_back(m_.parts[i].id);
     }
     if (!empty.empty()) {
-      d_.note("model.empty_part", {}, fmt::format("{} no element: {}", empty.size() == 1 ? "this part has" : "these parts have", list(empty)));
+      d_.note("model.empty_part", {},
+              fmt::format("{} no element: {}", empty.size() == 1 ? "this part has" : "these parts have", list(empty)));
     }
   }
 
@@ -131,18 +132,24 @@ class Validator {
   bool has_stiffness(const Segment& s) const {
     const auto k = static_cast<std::size_t>(s.element.index);
     switch (s.element.kind) {
-      case ElementKind::none: return false;
-      case ElementKind::shell4: return part_young(m_, m_.shells.part[k]) > 0.0 && shell_thickness(m_, m_.shells.part[k], m_.shells.thickness[k]) > 0.0;
-      case ElementKind::shell3: return part_young(m_, m_.sh3ns.part[k]) > 0.0 && shell_thickness(m_, m_.sh3ns.part[k], m_.sh3ns.thickness[k]) > 0.0;
-      case ElementKind::brick: return part_young(m_, m_.bricks.part[k]) > 0.0;
-      case ElementKind::tetra: return part_young(m_, m_.tetras.part[k]) > 0.0;
+      case ElementKind::none:
+        return false;
+      case ElementKind::shell4:
+        return part_young(m_, m_.shells.part[k]) > 0.0 && shell_thickness(m_, m_.shells.part[k], m_.shells.thickness[k]) > 0.0;
+      case ElementKind::shell3:
+        return part_young(m_, m_.sh3ns.part[k]) > 0.0 && shell_thickness(m_, m_.sh3ns.part[k], m_.sh3ns.thickness[k]) > 0.0;
+      case ElementKind::brick:
+        return part_young(m_, m_.bricks.part[k]) > 0.0;
+      case ElementKind::tetra:
+        return part_young(m_, m_.tetras.part[k]) > 0.0;
     }
     return false;
   }
 
   std::string corners(const Segment& s) const {
-    return s.nodes[2] == s.nodes[3] ? fmt::format("({} {} {})", id_of(s.nodes[0]), id_of(s.nodes[1]), id_of(s.nodes[2]))
-                                    : fmt::format("({} {} {} {})", id_of(s.nodes[0]), id_of(s.nodes[1]), id_of(s.nodes[2]), id_of(s.nodes[3]));
+    return s.nodes[2] == s.nodes[3]
+               ? fmt::format("({} {} {})", id_of(s.nodes[0]), id_of(s.nodes[1]), id_of(s.nodes[2]))
+               : fmt::format("({} {} {} {})", id_of(s.nodes[0]), id_of(s.nodes[1]), id_of(s.nodes[2]), id_of(s.nodes[3]));
   }
 
   void check_surface(const Interface& i, Index index, bool stiffness_given) {
@@ -169,7 +176,8 @@ class Validator {
     if (soft.size() == s.segments.size()) {
       d_.error("model.no_stiffness", i.place,
                fmt::format("no segment of surface {} has an element with stiffness behind it, so nothing could push back; "
-                           "segments must be faces of shells or solids with E > 0 (and a thickness)", s.id));
+                           "segments must be faces of shells or solids with E > 0 (and a thickness)",
+                           s.id));
     } else if (!soft.empty()) {
       d_.warning("model.no_stiffness", i.place,
                  fmt::format("surface {} has {} with no stiffness behind: nodes {}; nothing pushes back there", s.id,
@@ -183,10 +191,11 @@ class Validator {
     std::vector<Index> shared;
     std::set_intersection(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(shared));
     if (shared.empty()) return;
-    d_.error("model.shared_node", i.place,
-             fmt::format("{} on both surfaces ({} and {}): {}; a node may belong to one of them only: separate the meshes, or use /INTER/TYPE7",
-                         shared.size() == 1 ? "1 node is" : fmt::format("{} nodes are", shared.size()), surface(t.surface_1).id,
-                         surface(t.surface_2).id, list(ids_of(shared))));
+    d_.error(
+        "model.shared_node", i.place,
+        fmt::format("{} on both surfaces ({} and {}): {}; a node may belong to one of them only: separate the meshes, or use /INTER/TYPE7",
+                    shared.size() == 1 ? "1 node is" : fmt::format("{} nodes are", shared.size()), surface(t.surface_1).id,
+                    surface(t.surface_2).id, list(ids_of(shared))));
   }
 
   void check_nodes(const Interface& i, const std::vector<Index>& nodes, Index main, bool masses_are_known) {
@@ -200,8 +209,10 @@ class Validator {
     }
     if (!massless.empty()) {
       d_.error("model.no_mass", i.place,
-               fmt::format("{} no mass and cannot be held by contact: {}; secondary nodes must belong to elements with mass, or get one by /ADMAS",
-                           massless.size() == 1 ? "1 secondary node has" : fmt::format("{} secondary nodes have", massless.size()), list(ids_of(massless))));
+               fmt::format(
+                   "{} no mass and cannot be held by contact: {}; secondary nodes must belong to elements with mass, or get one by /ADMAS",
+                   massless.size() == 1 ? "1 secondary node has" : fmt::format("{} secondary nodes have", massless.size()),
+                   list(ids_of(massless))));
     }
     if (main == no_index) return;
     const std::vector<Index> on_main = nodes_of(main);
@@ -210,8 +221,8 @@ class Validator {
     if (shared.empty()) return;
     d_.warning("model.shared_node", i.place,
                fmt::format("{} also on the main surface {}: {}; a node cannot touch its own segment, take it out of the group",
-                           shared.size() == 1 ? "1 secondary node is" : fmt::format("{} secondary nodes are", shared.size()), surface(main).id,
-                           list(ids_of(shared))));
+                           shared.size() == 1 ? "1 secondary node is" : fmt::format("{} secondary nodes are", shared.size()),
+                           surface(main).id, list(ids_of(shared))));
   }
 
   // ---- rigid bodies, motions, loads ---------------------------------------------------------------------------------
@@ -238,16 +249,18 @@ class Validator {
         if (!inserted && found->second != b.id) shared[found->second].push_back(n);
       }
       for (const auto& [other, nodes] : shared) {
-        d_.error("model.shared_node", place("RBODY", b.id),
-                 fmt::format("{} also to rigid body {}: {}; a node can follow one body only",
-                             nodes.size() == 1 ? "1 node belongs" : fmt::format("{} nodes belong", nodes.size()), other, list(ids_of(nodes))));
+        d_.error(
+            "model.shared_node", place("RBODY", b.id),
+            fmt::format("{} also to rigid body {}: {}; a node can follow one body only",
+                        nodes.size() == 1 ? "1 node belongs" : fmt::format("{} nodes belong", nodes.size()), other, list(ids_of(nodes))));
       }
       double mass = b.mass;
       for (const Index n : all) mass += mass_[static_cast<std::size_t>(n)];
       // A body that turns about a fixed main node needs no mass, so this is not an error.
       if (masses_are_known && b.sensor == no_index && !all.empty() && mass <= 0.0) {
-        d_.warning("model.no_mass", place("RBODY", b.id),
-                   "the rigid body has no mass and cannot move freely; give one in the field Mass, or hold nodes of elements that have mass");
+        d_.warning(
+            "model.no_mass", place("RBODY", b.id),
+            "the rigid body has no mass and cannot move freely; give one in the field Mass, or hold nodes of elements that have mass");
       }
     }
   }
@@ -283,8 +296,8 @@ class Validator {
       }
       if (other != nullptr) {
         d_.warning("model.motion_twice", place(name, motion.id),
-                   fmt::format("/{}/{} imposes the same direction at the same time on {}: {}; the last one counts, keep one of them", name_of(other->kind),
-                               other->id, plural(twice.size(), "node", "nodes"), list(ids_of(twice))));
+                   fmt::format("/{}/{} imposes the same direction at the same time on {}: {}; the last one counts, keep one of them",
+                               name_of(other->kind), other->id, plural(twice.size(), "node", "nodes"), list(ids_of(twice))));
       }
     }
   }
@@ -297,9 +310,10 @@ class Validator {
         if (mass_[static_cast<std::size_t>(n)] <= 0.0 && !held.contains(n)) massless.push_back(n);
       }
       if (massless.empty()) return;
-      d_.error("model.no_mass", place(keyword, id),
-               fmt::format("{} loaded but has no mass: {}; load nodes of elements with mass or of a rigid body, or give mass by /ADMAS",
-                           massless.size() == 1 ? "1 node is" : fmt::format("each of {} nodes is", massless.size()), list(ids_of(massless))));
+      d_.error(
+          "model.no_mass", place(keyword, id),
+          fmt::format("{} loaded but has no mass: {}; load nodes of elements with mass or of a rigid body, or give mass by /ADMAS",
+                      massless.size() == 1 ? "1 node is" : fmt::format("each of {} nodes is", massless.size()), list(ids_of(massless))));
     };
     for (const ConcentratedLoad& l : m_.concentrated_loads) {
       if (l.direction < 3) check("CLOAD", l.id, l.nodes);
@@ -329,7 +343,8 @@ class Validator {
       if (!used[i]) unused.push_back(m_.functions[i].id);
     }
     if (!unused.empty()) {
-      d_.note("model.unused_function", {}, fmt::format("nothing uses {}: {}", unused.size() == 1 ? "this /FUNCT" : "these /FUNCT", list(unused)));
+      d_.note("model.unused_function", {},
+              fmt::format("nothing uses {}: {}", unused.size() == 1 ? "this /FUNCT" : "these /FUNCT", list(unused)));
     }
   }
 

@@ -67,9 +67,9 @@ TEST(Conditions, InitialVelocityInASkewIsTurnedToGlobalAxes) {
 
 TEST(Conditions, InitialVelocitiesKeepTheOrderOfTheDeck) {
   const Built b = with_text_before("/INIVEL/TRA/1", "/INIVEL/ROT/5\nspin\n" + reals({"0", "0", "7"}) + integers({"3", "0"}) +
-                                                        "\n/INIVEL/NODE/4\nsingle\n" + integers({"30", "0"}) + reals({"1", "2", "3"}) + "\n" +
-                                                        integers({"", ""}) + reals({"0", "5", "0"}) +
-                                                        "\n/INIVEL/AXIS/6\nrotor\n" + integers({"Y", "0", "3"}) + "\n" + reals({"0", "0", "2", "9"}));
+                                                        "\n/INIVEL/NODE/4\nsingle\n" + integers({"30", "0"}) + reals({"1", "2", "3"}) +
+                                                        "\n" + integers({"", ""}) + reals({"0", "5", "0"}) + "\n/INIVEL/AXIS/6\nrotor\n" +
+                                                        integers({"Y", "0", "3"}) + "\n" + reals({"0", "0", "2", "9"}));
   ASSERT_EQ(b.messages(), std::vector<std::string>{});
   const auto& v = b.model.initial_velocities;
   ASSERT_EQ(v.size(), 4u);
@@ -99,7 +99,7 @@ TEST(Conditions, ZeroScaleIsOneInTheUnitOfTheDeck) {
   EXPECT_DOUBLE_EQ(b.model.sensors.at(0).t_on, 1e-5);
   EXPECT_DOUBLE_EQ(b.model.concentrated_loads.at(0).scale_y, 1e3);  // kg mm/ms2 = 1000 N
   EXPECT_DOUBLE_EQ(b.model.gravities.at(0).scale_y, -9.81);
-  EXPECT_DOUBLE_EQ(b.model.pressure_loads.at(0).scale_y, 4e9);      // kg/(mm ms2) = 1 GPa
+  EXPECT_DOUBLE_EQ(b.model.pressure_loads.at(0).scale_y, 4e9);  // kg/(mm ms2) = 1 GPa
 }
 
 TEST(Conditions, LoadsReferToFunctionSkewSensorAndGroup) {
@@ -232,11 +232,14 @@ TEST(Conditions, OldLayoutHasEightColumnsAndNoAbscissaScale) {
     return s;
   };
   const std::string deck =
-      "#RADIOSS STARTER      44old                    0\n/NODE\n" + narrow({"1"}) + "             0.0             0.0             0.0\n" + narrow({"2"}) +
-      "             1.0             0.0             0.0\n/ADMAS/0/1/mass\n             2.0" + narrow({"1"}) + "\n/GRNOD/NODE/1/all\n" + narrow({"1", "2"}) +
-      "\n/FUNCT/1/ramp\n             0.0             0.0\n             1.0             1.0\n/BCS/1/clamp\n 110 001" + narrow({"0", "1"}) + "\n/CLOAD/1/pull\n" +
-      narrow({"1", "Y", "0", "0"}) + "             5.0" + narrow({"1"}) + "\n/IMPVEL/1/push\n" + narrow({"1", "X", "0", "0", "1"}) +
-      "\n             3.0             0.1             0.2\n/INIVEL/TRA/1/go\n             1.0             2.0             3.0" + narrow({"1"}) + "\n/END\n";
+      "#RADIOSS STARTER      44old                    0\n/NODE\n" + narrow({"1"}) + "             0.0             0.0             0.0\n" +
+      narrow({"2"}) + "             1.0             0.0             0.0\n/ADMAS/0/1/mass\n             2.0" + narrow({"1"}) +
+      "\n/GRNOD/NODE/1/all\n" + narrow({"1", "2"}) +
+      "\n/FUNCT/1/ramp\n             0.0             0.0\n             1.0             1.0\n/BCS/1/clamp\n 110 001" + narrow({"0", "1"}) +
+      "\n/CLOAD/1/pull\n" + narrow({"1", "Y", "0", "0"}) + "             5.0" + narrow({"1"}) + "\n/IMPVEL/1/push\n" +
+      narrow({"1", "X", "0", "0", "1"}) +
+      "\n             3.0             0.1             0.2\n/INIVEL/TRA/1/go\n             1.0             2.0             3.0" +
+      narrow({"1"}) + "\n/END\n";
   const Built b = build_text(deck);
   ASSERT_FALSE(b.diagnostics.has_errors()) << b.messages().front();
   const Model& m = b.model;

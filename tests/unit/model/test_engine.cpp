@@ -18,8 +18,10 @@ Controls controls(const std::string& engine) { return build_engine(engine).model
 
 TEST(Engine, RunHistoryListingAndAnimation) {
   const Controls k = controls(
-      "# comment\n/RUN/model_00/1/\n\n   2.5E-3 \n/TFILE/4\n1.0d-5\n/PRINT/ -10\n/RFILE/2\n5000 0\n/ANIM/DT\n.001, .002\n/ANIM/VECT/ACCEL\n/ANIM/ELEM/PRES\n"
-      "/ANIM/ELEM/EPSP\n/ANIM/ELEM/EPSP\n/ANIM/TENS/STRESS/MEMB\n/ANIM/BRIC/TENS/EPSDO\n/ANIM/GZIP\n/ANIM/VERS/44\n/TITLE\n\n/END\n/RUN/other/1\n9\n");
+      "# comment\n/RUN/model_00/1/\n\n   2.5E-3 \n/TFILE/4\n1.0d-5\n/PRINT/ -10\n/RFILE/2\n5000 0\n/ANIM/DT\n.001, "
+      ".002\n/ANIM/VECT/ACCEL\n/ANIM/ELEM/PRES\n"
+      "/ANIM/ELEM/EPSP\n/ANIM/ELEM/EPSP\n/ANIM/TENS/STRESS/MEMB\n/ANIM/BRIC/TENS/EPSDO\n/ANIM/GZIP\n/ANIM/VERS/44\n/TITLE\n\n/END\n/RUN/"
+      "other/1\n9\n");
   EXPECT_EQ(k.run_name, "model_00");
   EXPECT_EQ(k.t_end, 2.5e-3);
   EXPECT_EQ(k.history_interval, 1e-5);
@@ -27,7 +29,8 @@ TEST(Engine, RunHistoryListingAndAnimation) {
   EXPECT_EQ(k.restart_every, 5000);
   EXPECT_EQ(k.animation_start, .001);
   EXPECT_EQ(k.animation_interval, .002);
-  EXPECT_EQ(k.animation_fields, (std::vector<std::string>{"VECT/ACC", "ELEM/P", "ELEM/EPSP", "SHELL/TENS/STRESS/MEMB", "BRICK/TENS/EPSDOT"}));
+  EXPECT_EQ(k.animation_fields,
+            (std::vector<std::string>{"VECT/ACC", "ELEM/P", "ELEM/EPSP", "SHELL/TENS/STRESS/MEMB", "BRICK/TENS/EPSDOT"}));
 }
 
 TEST(Engine, DefaultsWhenOnlyTheRunIsGiven) {
@@ -113,8 +116,11 @@ TEST(Engine, RigidBodiesAreSwitchedByTheirMainNodes) {
 }
 
 TEST(Engine, HarmlessKeywordsAreSkippedWithANote) {
-  const Built b = build_engine("/RUN/a/1\n1\n/MON/ON\n/PARITH/ON\n/VERS/2019\n/H3D/DT\n0 1\n/H3D/ELEM/VONM\n/PROC/4\n/OUTP/DT\n0 1\n/ATFILE\n1\n");
-  EXPECT_EQ(b.messages(), (std::vector<std::string>{"deck_0001.rad: note: these keywords do not change the mechanics and are skipped: /ATFILE, /H3D, /OUTP, /PROC"}));
+  const Built b =
+      build_engine("/RUN/a/1\n1\n/MON/ON\n/PARITH/ON\n/VERS/2019\n/H3D/DT\n0 1\n/H3D/ELEM/VONM\n/PROC/4\n/OUTP/DT\n0 1\n/ATFILE\n1\n");
+  EXPECT_EQ(b.messages(),
+            (std::vector<std::string>{
+                "deck_0001.rad: note: these keywords do not change the mechanics and are skipped: /ATFILE, /H3D, /OUTP, /PROC"}));
 }
 
 }  // namespace

@@ -126,9 +126,11 @@ TEST(Interfaces, ShellSegmentsKeepTheirSide) {  // T5: the user's responsibility
 TEST(Interfaces, FaceBetweenTwoSolidsIsNotTurned) {
   // A third brick below the upper block shares its lower face: no outside, so the segment stays as typed.
   std::string deck = with_segments(integers({"1", "9", "10", "11", "12"}));
-  deck = with_line(deck, "/BRICK/2", 1, integers({"2", "9", "10", "11", "12", "13", "14", "15", "16"}) + "\n/NODE\n" + integers({"41"}) + reals({"0", "0", "1.05"}) + "\n" +
-                                            integers({"42"}) + reals({"1", "0", "1.05"}) + "\n" + integers({"43"}) + reals({"1", "1", "1.05"}) + "\n" + integers({"44"}) +
-                                            reals({"0", "1", "1.05"}) + "\n/BRICK/2\n" + integers({"3", "41", "42", "43", "44", "9", "10", "11", "12"}));
+  deck = with_line(deck, "/BRICK/2", 1,
+                   integers({"2", "9", "10", "11", "12", "13", "14", "15", "16"}) + "\n/NODE\n" + integers({"41"}) +
+                       reals({"0", "0", "1.05"}) + "\n" + integers({"42"}) + reals({"1", "0", "1.05"}) + "\n" + integers({"43"}) +
+                       reals({"1", "1", "1.05"}) + "\n" + integers({"44"}) + reals({"0", "1", "1.05"}) + "\n/BRICK/2\n" +
+                       integers({"3", "41", "42", "43", "44", "9", "10", "11", "12"}));
   const Built b = build_text(deck);
   ASSERT_FALSE(b.diagnostics.has_errors());
   const Surface& used = b.model.surfaces.at(static_cast<std::size_t>(type3(b.model).surface_2));
@@ -148,9 +150,10 @@ TEST(Interfaces, TrianglesOnSolidsAreTurnedBySwappingTheirFirstNodes) {
 
 TEST(Interfaces, RepeatedCornersBecomeTriangles) {
   const std::string flags = "       000" + integers({"0", "2"});
-  const Built b = build_text(with_line(with_segments(integers({"1", "9", "9", "10", "11"}) + "\n" + integers({"2", "13", "14", "14", "15"}) + "\n" +
-                                                     integers({"3", "13", "14", "15", "13"})),
-                                       "/INTER/TYPE3/1", 4, flags));
+  const Built b =
+      build_text(with_line(with_segments(integers({"1", "9", "9", "10", "11"}) + "\n" + integers({"2", "13", "14", "14", "15"}) + "\n" +
+                                         integers({"3", "13", "14", "15", "13"})),
+                           "/INTER/TYPE3/1", 4, flags));
   const Surface& used = b.model.surfaces.at(static_cast<std::size_t>(type3(b.model).surface_2));
   EXPECT_EQ(ids(b.model, used.segments.at(0)), (std::array<Id, 4>{9, 10, 11, 11}));
   EXPECT_EQ(ids(b.model, used.segments.at(1)), (std::array<Id, 4>{13, 14, 15, 15}));
@@ -162,7 +165,8 @@ TEST(Interfaces, Type5ReadsFrictionLawsWithTheirDimensions) {
   std::string deck = with_line(base_starter, "/BEGIN", 4, reals({"kg", "m", "s"}));
   deck = with_line(deck, "/INTER/TYPE5/2", 4, "       000" + integers({"", "1", "3"}));
   deck = with_line(deck, "/INTER/TYPE5/2", 5,
-                   integers({"2", "3"}) + reals({"7"}) + std::string(10, ' ') + integers({"1"}) + reals({".5"}) + "\n" + reals({"1", "2", "3", "4", "5"}) + "\n" + reals({"6"}));
+                   integers({"2", "3"}) + reals({"7"}) + std::string(10, ' ') + integers({"1"}) + reals({".5"}) + "\n" +
+                       reals({"1", "2", "3", "4", "5"}) + "\n" + reals({"6"}));
   const Built b = build_text(deck);
   ASSERT_FALSE(b.diagnostics.has_errors());
   const Interface& i = b.model.interfaces.at(1);
@@ -172,10 +176,10 @@ TEST(Interfaces, Type5ReadsFrictionLawsWithTheirDimensions) {
   EXPECT_EQ(t5.nodes.size(), 4u);
   EXPECT_EQ(i.ifric, 2);
   EXPECT_EQ(i.ifiltr, 3);
-  EXPECT_DOUBLE_EQ(i.xfreq, 7e3);    // 1/ms
-  EXPECT_DOUBLE_EQ(i.c[0], 1e-18);   // 1/GPa^2
-  EXPECT_DOUBLE_EQ(i.c[1], 2.0);     // ms/mm = s/m
-  EXPECT_DOUBLE_EQ(i.c[2], 3e-9);    // 1/GPa
+  EXPECT_DOUBLE_EQ(i.xfreq, 7e3);   // 1/ms
+  EXPECT_DOUBLE_EQ(i.c[0], 1e-18);  // 1/GPa^2
+  EXPECT_DOUBLE_EQ(i.c[1], 2.0);    // ms/mm = s/m
+  EXPECT_DOUBLE_EQ(i.c[2], 3e-9);   // 1/GPa
   EXPECT_DOUBLE_EQ(i.c[4], 5.0);
   EXPECT_DOUBLE_EQ(i.c[5], 6.0);
   EXPECT_EQ(i.sensor, 0);
@@ -233,11 +237,14 @@ TEST(Interfaces, OldLayoutOfTheThreeTypes) {
   deck += "/PART/1/a\n" + narrow({"1", "1", "0"}, 8) + "\n/PART/2/b\n" + narrow({"1", "1", "0"}, 8) + "\n";
   deck += "/SHELL/1\n" + narrow({"1", "1", "2", "3", "4"}, 8) + "\n/SHELL/2\n" + narrow({"2", "5", "8", "7", "6"}, 8) + "\n";
   deck += "/SURF/PART/1/a\n" + narrow({"1"}, 8) + "\n/SURF/PART/2/b\n" + narrow({"2"}, 8) + "\n/GRNOD/PART/1/b\n" + narrow({"2"}, 8) + "\n";
-  deck += "/INTER/TYPE3/1\nfirst title\n" + narrow({"1", "2"}, 8) + "\n" + narrow({".3", ".1", ".05", "0.", "2."}, 16) + "\n     010" + narrow({"1", "2"}, 8) + "\n";
-  deck += "/INTER/TYPE5/2\nsecond title\n" + narrow({"1", "1", "", "", "", "", "2"}, 8) + "\n" + narrow({".4", ".2", ".06", "0.", "0."}, 16) + "\n     001" + narrow({"", "1"}, 8) +
-          "\n" + narrow({"1", "1"}, 8) + narrow({".5"}, 16) + "\n" + narrow({"1.", "2.", "3.", "4.", "5."}, 16) + "\n";
-  deck += "/INTER/TYPE7/3/third title\n" + narrow({"1", "1", "0", "", "0", "0", "0", "1"}, 8) + "\n" + narrow({".5", ".3", ".07", "0.", "0."}, 16) + "\n     100" +
-          narrow({"", "", "5"}, 8) + narrow({".06", "0.9"}, 16) + "\n" + narrow({"0", "0"}, 8) + narrow({"0."}, 16) + narrow({"2"}, 8) + "\n/END\n";
+  deck += "/INTER/TYPE3/1\nfirst title\n" + narrow({"1", "2"}, 8) + "\n" + narrow({".3", ".1", ".05", "0.", "2."}, 16) + "\n     010" +
+          narrow({"1", "2"}, 8) + "\n";
+  deck += "/INTER/TYPE5/2\nsecond title\n" + narrow({"1", "1", "", "", "", "", "2"}, 8) + "\n" +
+          narrow({".4", ".2", ".06", "0.", "0."}, 16) + "\n     001" + narrow({"", "1"}, 8) + "\n" + narrow({"1", "1"}, 8) +
+          narrow({".5"}, 16) + "\n" + narrow({"1.", "2.", "3.", "4.", "5."}, 16) + "\n";
+  deck += "/INTER/TYPE7/3/third title\n" + narrow({"1", "1", "0", "", "0", "0", "0", "1"}, 8) + "\n" +
+          narrow({".5", ".3", ".07", "0.", "0."}, 16) + "\n     100" + narrow({"", "", "5"}, 8) + narrow({".06", "0.9"}, 16) + "\n" +
+          narrow({"0", "0"}, 8) + narrow({"0."}, 16) + narrow({"2"}, 8) + "\n/END\n";
   const Built b = build_text(deck);
   ASSERT_FALSE(b.diagnostics.has_errors()) << b.diagnostics.all().front().message;
   ASSERT_EQ(b.model.interfaces.size(), 3u);

@@ -20,7 +20,8 @@ using base_deck::reals;
 using base_deck::with_line;
 
 const ThRequest* find(const Model& m, ThKind kind, Id id) {
-  const auto found = std::find_if(m.th_requests.begin(), m.th_requests.end(), [&](const ThRequest& r) { return r.kind == kind && r.id == id; });
+  const auto found =
+      std::find_if(m.th_requests.begin(), m.th_requests.end(), [&](const ThRequest& r) { return r.kind == kind && r.id == id; });
   return found == m.th_requests.end() ? nullptr : &*found;
 }
 
@@ -52,7 +53,8 @@ TEST(Outputs, NamesMayTakeSeveralLinesAndRepeat) {
 }
 
 TEST(Outputs, TwoGroupsOfOneObjectAreOneRequest) {
-  const Built b = build_text(with_line(base_starter, "/TH/PART/2", 0, "/ATH/PART/7\nmore\nMASS      PW\n" + integers({"2"}) + "\n/TH/PART/2"));
+  const Built b =
+      build_text(with_line(base_starter, "/TH/PART/2", 0, "/ATH/PART/7\nmore\nMASS      PW\n" + integers({"2"}) + "\n/TH/PART/2"));
   ASSERT_EQ(b.messages(), std::vector<std::string>{});
   EXPECT_EQ(find(b.model, ThKind::part, 2)->variables.back(), "PW");
   EXPECT_EQ(find(b.model, ThKind::part, 2)->variables.size(), 10u);
@@ -60,12 +62,14 @@ TEST(Outputs, TwoGroupsOfOneObjectAreOneRequest) {
 }
 
 TEST(Outputs, ElementsWallsBodiesAndAccelerometers) {
-  const Built b = build_text(with_line(base_starter, "/TH/PART/2", 0,
-                                       "/TH/SHELL/11\nshells\nSTRESS    THIC\n" + integers({"3", "0"}) + "plate\n/TH/BRICK/12\nbricks\nSTRESS\n" + integers({"2"}) +
-                                           "\n/TH/RWALL/13\nwall\nFN\n" + integers({"1"}) + "\n/TH/RBODY/14\nbody\nF         V\n" + integers({"1"}) +
-                                           "\n/ACCEL/5\nsensor\n" + integers({"13", "1"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n/TH/PART/2"));
+  const Built b = build_text(with_line(
+      base_starter, "/TH/PART/2", 0,
+      "/TH/SHELL/11\nshells\nSTRESS    THIC\n" + integers({"3", "0"}) + "plate\n/TH/BRICK/12\nbricks\nSTRESS\n" + integers({"2"}) +
+          "\n/TH/RWALL/13\nwall\nFN\n" + integers({"1"}) + "\n/TH/RBODY/14\nbody\nF         V\n" + integers({"1"}) +
+          "\n/ACCEL/5\nsensor\n" + integers({"13", "1"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n/TH/PART/2"));
   ASSERT_EQ(b.messages(), std::vector<std::string>{});
-  EXPECT_EQ(find(b.model, ThKind::shell, 3)->variables, (std::vector<std::string>{"F1", "F2", "F12", "Q1", "Q2", "M1", "M2", "M12", "THIC"}));
+  EXPECT_EQ(find(b.model, ThKind::shell, 3)->variables,
+            (std::vector<std::string>{"F1", "F2", "F12", "Q1", "Q2", "M1", "M2", "M12", "THIC"}));
   EXPECT_EQ(find(b.model, ThKind::brick, 2)->index, 1);
   EXPECT_EQ(find(b.model, ThKind::rwall, 1)->variables, (std::vector<std::string>{"FNX", "FNY", "FNZ"}));
   EXPECT_EQ(find(b.model, ThKind::rbody, 1)->variables.size(), 9u);
@@ -77,9 +81,10 @@ TEST(Outputs, ElementsWallsBodiesAndAccelerometers) {
 
 TEST(Outputs, SectionTakesGroupsFrameAndInterfaces) {
   const Built b = build_text(with_line(base_starter, "/TH/PART/2", 0,
-                                       "/GRSHEL/SHEL/8\nplate\n" + integers({"3"}) + "\n/GRBRIC/BRIC/9\nblock\n" + integers({"2"}) + "\n/SECT/4\ncut\n" +
-                                           integers({"9", "10", "12", "3", "0", "0"}) + reals({"0", "0"}) + "\n\n" + integers({"9", "", "8", "0", "0", "0", "0", "2", "", "11"}) + "\n" +
-                                           integers({"1", "3"}) + "\n/TH/SECTIO/16\nforces\nDEF\n" + integers({"4"}) + "\n/TH/PART/2"));
+                                       "/GRSHEL/SHEL/8\nplate\n" + integers({"3"}) + "\n/GRBRIC/BRIC/9\nblock\n" + integers({"2"}) +
+                                           "\n/SECT/4\ncut\n" + integers({"9", "10", "12", "3", "0", "0"}) + reals({"0", "0"}) + "\n\n" +
+                                           integers({"9", "", "8", "0", "0", "0", "0", "2", "", "11"}) + "\n" + integers({"1", "3"}) +
+                                           "\n/TH/SECTIO/16\nforces\nDEF\n" + integers({"4"}) + "\n/TH/PART/2"));
   ASSERT_EQ(b.messages(), std::vector<std::string>{});
   const Section& s = b.model.sections.at(0);
   EXPECT_EQ(s.nodes.size(), 4u);
@@ -92,12 +97,13 @@ TEST(Outputs, SectionTakesGroupsFrameAndInterfaces) {
 }
 
 TEST(Outputs, EveryGroupOfEveryKindExpandsToVariablesOfItsTable) {
-  for (const ThKind kind : {ThKind::node, ThKind::part, ThKind::shell, ThKind::sh3n, ThKind::brick, ThKind::inter, ThKind::rwall, ThKind::rbody, ThKind::section,
-                            ThKind::accelerometer}) {
+  for (const ThKind kind : {ThKind::node, ThKind::part, ThKind::shell, ThKind::sh3n, ThKind::brick, ThKind::inter, ThKind::rwall,
+                            ThKind::rbody, ThKind::section, ThKind::accelerometer}) {
     const std::vector<std::string>& all = th_variables(kind);
-    for (const char* group : {"DEF", "D", "V", "A", "VR", "AR", "XYZ", "STRESS", "STRAIN", "PLAS", "SIG_3", "LOCSTRS", "FN", "FT", "|FN|", "|F|", "F", "M", "R", "FI",
-                              "MI", "CENTER", "GLOBAL", "LOCAL", "W"}) {
-      for (const std::string& name : th_expand(kind, group)) EXPECT_NE(std::find(all.begin(), all.end(), name), all.end()) << th_word(kind) << " " << group << " " << name;
+    for (const char* group : {"DEF", "D",    "V",   "A", "VR", "AR", "XYZ", "STRESS", "STRAIN", "PLAS",   "SIG_3", "LOCSTRS", "FN",
+                              "FT",  "|FN|", "|F|", "F", "M",  "R",  "FI",  "MI",     "CENTER", "GLOBAL", "LOCAL", "W"}) {
+      for (const std::string& name : th_expand(kind, group))
+        EXPECT_NE(std::find(all.begin(), all.end(), name), all.end()) << th_word(kind) << " " << group << " " << name;
     }
     EXPECT_FALSE(th_expand(kind, "def").empty());
     EXPECT_TRUE(th_expand(kind, "NOTHING").empty());

@@ -1,7 +1,6 @@
 // Checks of a whole model, the summary, and the decks that must build (type3.md T6; deck-format.md E.1).
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "model/summary.hpp"
 #include "unit/model/deck_text.hpp"
@@ -31,14 +30,17 @@ std::string shared_strip(int n) {
 TEST(Validate, SharedNodesOfAType3AreListedUpToTwenty) {  // T6
   const Built b = build_text(shared_strip(14));
   ASSERT_EQ(b.diagnostics.error_count(), 1);
-  EXPECT_TRUE(b.has("/INTER/TYPE3/5: 30 nodes are on both surfaces (1 and 2): 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20 (and 10 more); "
-                    "a node may belong to one of them only"));
+  EXPECT_TRUE(
+      b.has("/INTER/TYPE3/5: 30 nodes are on both surfaces (1 and 2): 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, "
+            "20 (and 10 more); "
+            "a node may belong to one of them only"));
 }
 
 TEST(Validate, PartsWithoutElementsAndUnusedFunctionsAreNoted) {
-  const Built b = build_text(with_line(base_starter, "/SENSOR/TIME/1", 0,
-                                       "/PART/9\nspare\n         2         2         0\n/FUNCT/8\nspare\n                   0                   1\n"
-                                       "                   1                   1\n/SENSOR/TIME/1"));
+  const Built b =
+      build_text(with_line(base_starter, "/SENSOR/TIME/1", 0,
+                           "/PART/9\nspare\n         2         2         0\n/FUNCT/8\nspare\n                   0                   1\n"
+                           "                   1                   1\n/SENSOR/TIME/1"));
   EXPECT_EQ(b.messages(), (std::vector<std::string>{"note: this part has no element: 9", "note: nothing uses this /FUNCT: 8"}));
 }
 
