@@ -11,6 +11,8 @@ namespace {
 
 /// Share of the largest energy term that may be made or lost before a run is stopped as wrong, when the deck sets none.
 constexpr double default_error_limit = 0.5;
+/// Cycles in a row that must be beyond the limit: at the start from rest all terms are tiny and their ratio says little.
+constexpr int patience = 100;
 
 class Fnv {
  public:
@@ -105,7 +107,7 @@ void Cycle::close_balance() {
   if (b.largest > 0.0) worst_contact_error_ = std::max(worst_contact_error_, std::abs(b.cx) / b.largest);
 }
 
-void Cycle::check_finite() const {
+void Cycle::check_finite() {
   const double sum = balance_.ie + balance_.he + balance_.ke + balance_.ker + balance_.extw + balance_.ce;
   const std::string when = " at cycle " + std::to_string(state_.times.cycle) + ", time " + std::to_string(state_.times.t);
   if (!std::isfinite(sum)) {
@@ -119,7 +121,8 @@ void Cycle::check_finite() const {
   }
   const double asked = model_.controls.stop_energy_error;
   const double limit = asked > 0.0 ? asked : default_error_limit;
-  if (std::abs(balance_.err) <= limit) return;
+  beyond_limit_ = std::abs(balance_.err) > limit ? beyond_limit_ + 1 : 0;
+  if (beyond_limit_ < patience) return;
   std::size_t fastest = 0;
   for (std::size_t i = 0; i < state_.mass.size(); ++i) {
     if (squared_norm(state_.v[i]) > squared_norm(state_.v[fastest])) fastest = i;
@@ -136,7 +139,7 @@ Snapshot Cycle::snapshot() {
     std::fill(contact_area_.begin(), contact_area_.end(), 0.0);
     for (const init::RunInterface& i : interfaces_) {
       i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
-      i.contact.add_nodal_area({state_.x.data(), state_.mass.size()}, contact_area_);
+      i.contact.add_nodal_area(state_.x, contact_area_);
     }
   }
   Snapshot s;

@@ -117,7 +117,7 @@ void Cycle::internal_forces(StepLimits& limits) {
 void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
   const state::StepTimes& t = state_.times;
-  const contact::HostState host{{state_.x.data(), state_.mass.size()}, {state_.v.data(), state_.mass.size()}, state_.mass,
+  const contact::HostState host{state_.x, state_.v, state_.mass,
                                 t.t, t.h_minus, t.h_bar_old};
   {
     const Timer timer(*this, p_search);

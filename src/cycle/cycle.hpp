@@ -61,7 +61,7 @@ class Cycle {
   void book_interfaces();
   void close_balance();
   void integrate();
-  void check_finite() const;
+  void check_finite();
   [[nodiscard]] Snapshot snapshot();
   [[nodiscard]] Id element_id(const elements::Group& group, Index element) const;
 
@@ -100,6 +100,7 @@ class Cycle {
   bool eroded_ = false;
   double scaled_energy_ = 0.0;
   double booked_work_ = 0.0;   // external work of this cycle as the reference program books it
+  int beyond_limit_ = 0;       // cycles in a row with an energy error beyond the limit
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;

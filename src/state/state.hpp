@@ -19,8 +19,7 @@ struct StepTimes {
   double h_bar_old = 0.0;    ///< of the previous cycle, 0 in cycle 0
 };
 
-/// Nodal arrays, all #N (by 3), index = model node index. x, v and w carry one entry more, so that kernels may load four
-/// doubles at any node.
+/// Nodal arrays, all #N (by 3), index = model node index.
 struct State {
   StepTimes times;
   std::vector<Vec3> x;       ///< position t^n
