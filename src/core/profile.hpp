@@ -32,11 +32,15 @@ struct Profile {
   /// reaction acts one cycle later on the mass of wall and impacted nodes together.
   enum class MovingWall { same_cycle, reference };
 
+  /// Kinetic energy of the balance: the leap-frog form m v(n-1/2).v(n+1/2)/2, whose sum with the potential of a linear
+  /// structure is constant to rounding, or m |v(n)|^2/2 with v(n) = v(n-1/2) + h-/2 a(n), which oscillates by h^2 m a^2/8.
+  enum class KineticEnergy { leapfrog, midpoint };
   /// External work: the exact discrete work of loads and constraints, or as the reference program books it.
   enum class ExternalWork { discrete, booked };
 
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
+  KineticEnergy kinetic_energy = KineticEnergy::leapfrog;
   ExternalWork external_work = ExternalWork::discrete;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
@@ -53,6 +57,7 @@ struct Profile {
     Profile p;
     p.element_step = ElementStep::reference;
     p.system_step = SystemStep::reference;
+    p.kinetic_energy = KineticEnergy::midpoint;
     p.external_work = ExternalWork::booked;
     p.rotational_hourglass = RotationalHourglass::reference;
     p.hourglass_energy = HourglassEnergy::end_of_step;

@@ -79,10 +79,11 @@ void Cycle::close_balance() {
   const double constraint_work = external + bodies_.ledger_work(state_);
   const double t_star = constraints::ledger_kinetic_energy(state_) + bodies_.ledger_correction(state_);
   const double ledger = ledger_.close(state_, t_star, constraint_work);
-  const KineticSums kinetic = ledger_.kinetic(state_, pool_);
+  const bool product_form = options_.profile.kinetic_energy == Profile::KineticEnergy::leapfrog;
+  const KineticSums kinetic = ledger_.kinetic(state_, product_form, pool_);
   const constraints::EnergyCorrection body = bodies_.energy_correction(state_);
-  b.ke = kinetic.translation + body.translation;
   b.ker = kinetic.rotation + body.rotation;
+  b.ke = product_form ? t_star - b.ker : kinetic.translation + body.translation;
   b.momentum = kinetic.momentum + body.momentum;
   b.mass = kinetic.mass + body.mass;
   b.added_mass = time_step_->added_mass();

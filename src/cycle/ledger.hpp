@@ -13,7 +13,7 @@
 
 namespace abut::cycle {
 
-/// Kinetic sums of one cycle (numerics.md 1.6.2): v(n) = v(n-1/2) + h-/2 a(n).
+/// Kinetic sums of one cycle at t^n.
 struct KineticSums {
   double translation = 0.0, rotation = 0.0, mass = 0.0;
   Vec3 momentum;
@@ -22,8 +22,9 @@ struct KineticSums {
 
 class Ledger {
  public:
-  /// Kinetic sums over all nodes, in a fixed order.
-  [[nodiscard]] KineticSums kinetic(const state::State& s, parallel::ThreadPool& pool);
+  /// Sums over all nodes in a fixed order: momentum and energies of v(n) = v(n-1/2) + h-/2 a(n) (numerics.md 1.6.2), or
+  /// energies in the product form v(n-1/2).v(n+1/2).
+  [[nodiscard]] KineticSums kinetic(const state::State& s, bool product_form, parallel::ThreadPool& pool);
 
   /// Before the first cycle: T* of the start.
   void open(double kinetic) { start_ = kinetic; }
