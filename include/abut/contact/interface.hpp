@@ -36,7 +36,9 @@ struct SurfaceState {
 struct HostState {
   std::span<const Vec3> x;                 ///< positions at t^n
   std::span<const Vec3> v;                 ///< velocities at n - 1/2
-  std::span<const double> mass;            ///< nodal masses (TYPE7 damping); may be empty otherwise
+  /// Nodal masses, 0 for a node that cannot move (clamped, imposed motion): first and last contact forces are predicted with them
+  /// (and TYPE7 damps with them). Empty: speeds count as constant over a step, which costs accuracy in CX only.
+  std::span<const double> mass;
   double time = 0.0;                       ///< t^n
   double dt = 0.0;                         ///< h_-, the step that ended at t^n (0 in the first cycle)
   double dt_bar_old = 0.0;                 ///< (h_- + the one before)/2 (reference impulses, incremental friction)

@@ -37,6 +37,7 @@ void SideLoads::clear() {
 Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
     : options_(options),
       law_{options.rules.law == Law::stiffening ? options.gap : 0.0},
+      two_passes_(!one_pass),
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       state_(held_nodes),
       next_(held_nodes),
@@ -310,10 +311,12 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   double fraction = 1.0;  // of the last step in contact
   double factor = 1.0;
   const double moved_in = closing * host.dt;
+  // With two passes the facing surface's own springs act on this pair too, as strongly as this one where the meshes face.
+  const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * motion.inverse_mass;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, motion.inverse_mass, others};
+    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, inverse_mass, others};
     factor = switched_force(s, fresh) / touch.pair.magnitude;
   }
   const double normal_force = factor * touch.pair.magnitude;
@@ -328,7 +331,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   after.facet = touch.facet;
   after.normal = touch.normal;
   after.rate = motion.rate;
-  after.acceleration = normal_force * motion.inverse_mass;
+  after.acceleration = normal_force * inverse_mass;
 
   if (options_.friction > 0.0 && rub) {
     double limit = options_.friction * normal_force;

@@ -104,6 +104,7 @@ class Pass {
 
   Options options_;
   NormalLaw law_;
+  bool two_passes_ = false;
   bool half_of_facet_ = false;
   bool stale_ = true;
   bool started_ = false;
