@@ -353,8 +353,7 @@ TEST(ShellThickness, FollowsTheStrain) {
   EXPECT_NEAR(elastic.out().thickness, 1.0 - 0.3 / 0.7 * 3e-3, 1e-15);
   EXPECT_NEAR(elastic.r->group->thickness(0), elastic.out().thickness, 0.0);
 
-  // Equal biaxial flow, iterative mapping: ln t = -(exx + eyy) + elastic volume change (1 - 2 nu)(sxx + syy)/E. 
-  // books less plastic strain than it relaxes on such paths.)
+  // Equal biaxial flow, iterative mapping: ln t = -(exx + eyy) + elastic volume change (1 - 2 nu)(sxx + syy)/E.
   Strained biaxial;
   biaxial.s.property().thickness_changes = true;
   biaxial.s.property().iplas = 1;
