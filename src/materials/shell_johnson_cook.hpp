@@ -16,6 +16,13 @@
 
 namespace abut::materials {
 
+// Found for double too, where argument-dependent lookup finds nothing.
+using simd::abs;
+using simd::max;
+using simd::min;
+using simd::select;
+using simd::sqrt;
+
 /// Constants of the law; consistent units of the deck. `b_isotropic` = (1 - chi) b.
 struct ShellJohnsonCook {
   double young = 0.0, poisson = 0.0, shear = 0.0;

@@ -19,6 +19,13 @@
 
 namespace abut::elements {
 
+// Found for double too, where argument-dependent lookup finds nothing.
+using simd::abs;
+using simd::max;
+using simd::min;
+using simd::select;
+using simd::sqrt;
+
 inline constexpr int shell_lanes = 8;
 inline constexpr int max_thickness_points = 10;
 

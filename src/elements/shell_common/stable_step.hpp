@@ -5,6 +5,13 @@
 
 namespace abut::elements {
 
+// Found for double too, where argument-dependent lookup finds nothing.
+using simd::abs;
+using simd::max;
+using simd::min;
+using simd::select;
+using simd::sqrt;
+
 /// Step of each lane, and the nodal stiffness that goes to the slots.
 template <class T>
 struct ShellStep {

@@ -227,12 +227,12 @@ TEST(ShellLaw2, RateFactor) {
       law.vp = vp;
       law.icc = icc;
       law.sigma_max = icc == 2 ? 0.31 : 1e20;
-      // 10 kHz in units of 1 ms: the plastic rate follows after a tenth of a unit of time.
-      t.s.model.units.time = 1e-3;
+      // 10 kHz in units of 10 us: 0.1. The explicit feedback rate -> Y -> rate needs the filter's inertia to settle.
+      t.s.model.units.time = 1e-5;
       t.start();
-      const double h = 1e-2;
+      const double h = 0.1;
       double p_old = 0.0;
-      for (int i = 0; i < 600; ++i) {
+      for (int i = 0; i < 300; ++i) {
         p_old = t.out().plastic_max;
         t.step(h, rate, -0.5 * rate);
       }
@@ -353,8 +353,7 @@ TEST(ShellThickness, FollowsTheStrain) {
   EXPECT_NEAR(elastic.out().thickness, 1.0 - 0.3 / 0.7 * 3e-3, 1e-15);
   EXPECT_NEAR(elastic.r->group->thickness(0), elastic.out().thickness, 0.0);
 
-  // Equal biaxial flow, iterative mapping: ln t = -(exx + eyy) + elastic volume change (1 - 2 nu)(sxx + syy)/E. (The radial mapping
-  // books less plastic strain than it relaxes on such paths.)
+  // Equal biaxial flow, iterative mapping: ln t = -(exx + eyy) + elastic volume change (1 - 2 nu)(sxx + syy)/E.
   Strained biaxial;
   biaxial.s.property().thickness_changes = true;
   biaxial.s.property().iplas = 1;
@@ -364,16 +363,14 @@ TEST(ShellThickness, FollowsTheStrain) {
   const ElementOutput o = biaxial.out();
   const double volume = (1.0 - 2.0 * nu) * (o.resultants[0] + o.resultants[1]) / e;
   EXPECT_NEAR(std::log(o.thickness), -0.1 + volume, 1e-5);
-  // Uniaxial flow, both mappings: ln t = -nu sigma/E - p/2.
-  for (const int iplas : {1, 2}) {
-    Strained t;
-    t.s.property().thickness_changes = true;
-    t.s.property().iplas = iplas;
-    t.s.johnson_cook().a = 0.3;
-    t.start();
-    for (int i = 0; i < 500; ++i) t.uniaxial(1.0, 1e-4);
-    EXPECT_NEAR(std::log(t.out().thickness), -nu * t.out().resultants[0] / e - 0.5 * t.out().plastic_max, 1e-5) << iplas;
-  }
+  // Uniaxial flow: ln t = -nu sigma/E - p/2. (The radial mapping keeps the direction of stress: its lateral strain stays elastic.)
+  Strained uniaxial;
+  uniaxial.s.property().thickness_changes = true;
+  uniaxial.s.property().iplas = 1;
+  uniaxial.s.johnson_cook().a = 0.3;
+  uniaxial.start();
+  for (int i = 0; i < 500; ++i) uniaxial.uniaxial(1.0, 1e-4);
+  EXPECT_NEAR(std::log(uniaxial.out().thickness), -nu * uniaxial.out().resultants[0] / e - 0.5 * uniaxial.out().plastic_max, 1e-5);
   Strained fixed;
   fixed.start();
   fixed.step(1.0, 1e-3, 2e-3);
