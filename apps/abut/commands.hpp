@@ -16,7 +16,7 @@ struct RunArguments {
   std::filesystem::path output;  ///< empty: ./NAME
   int threads = 0;               ///< 0: all that the machine has
   std::string profile = "standard";
-  std::string interface_law;     ///< empty: the profile's
+  std::string interface_law;  ///< empty: the profile's
   int hash_every = 0;
   bool timing = false;
   bool quiet = false;

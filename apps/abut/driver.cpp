@@ -4,7 +4,8 @@
 
 namespace abut::app {
 
-cycle::Outcome run_model(const model::Model& model, const RunSettings& settings, cycle::Sink& sink, std::vector<output::PhaseTime>& phases) {
+cycle::Outcome run_model(const model::Model& model, const RunSettings& settings, cycle::Sink& sink,
+                         std::vector<output::PhaseTime>& phases) {
   RunSettings with_phases = settings;
   with_phases.phases = &phases;
   return cycle::run(model, with_phases, sink).outcome;

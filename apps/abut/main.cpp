@@ -41,7 +41,9 @@ int main(int argc, char** argv) {
   run_app->add_option("--threads", run.threads, "number of threads (default: all); results do not depend on it")
       ->check(CLI::Range(1, 4096));
   run_app->add_option("--profile", run.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
-  run_app->add_option("--interface-law", run.interface_law, "normal law of contacts with a gap: stiffening or constant (default: the profile's)")
+  run_app
+      ->add_option("--interface-law", run.interface_law,
+                   "normal law of contacts with a gap: stiffening or constant (default: the profile's)")
       ->check(laws);
   run_app->add_option("--hash-every", run.hash_every, "hash the state every N cycles into run.json")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));

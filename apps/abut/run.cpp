@@ -99,16 +99,15 @@ int run_command(const RunArguments& arguments) {
   });
   if (!arguments.quiet) {
     fmt::print("{}: {} nodes, {} elements, {} interfaces, until {:.6g} {}; results in {}\n", model.name, model.node_count(),
-               output::element_count(model), model.interfaces.size(), model.controls.t_end, model.units.time_name, folder.directory.string());
+               output::element_count(model), model.interfaces.size(), model.controls.t_end, model.units.time_name,
+               folder.directory.string());
     std::fflush(stdout);
     sinks->add(std::make_unique<output::Progress>(output::console_progress()));
   }
 
   const cycle::Outcome outcome = run_model(model, settings, *sinks, phases);
   const bool good = outcome.kind == cycle::Outcome::Kind::finished;
-  if (!arguments.quiet || !good) {
-    fmt::print(good ? stdout : stderr, "{} {}\n", model.name, output::outcome_text(outcome));
-  }
+  if (!arguments.quiet || !good) { fmt::print(good ? stdout : stderr, "{} {}\n", model.name, output::outcome_text(outcome)); }
   if (arguments.timing) {
     phases.push_back({"run", seconds_since(run_start)});
     for (const output::PhaseTime& phase : phases) fmt::print("{:<24} {:>10.3f} s\n", phase.name, phase.seconds);

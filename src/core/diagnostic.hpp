@@ -12,10 +12,10 @@ enum class Severity { note, warning, error };
 /// Where in the input a finding belongs. Empty members are not printed.
 struct Place {
   std::string file;
-  int line = 0;         ///< 1-based; 0 = unknown
-  std::string keyword;  ///< e.g. "/INTER/TYPE3/1"
-  std::string field;    ///< e.g. "Gap"
-  int first_column = 0; ///< 1-based, inclusive; 0 = no columns
+  int line = 0;          ///< 1-based; 0 = unknown
+  std::string keyword;   ///< e.g. "/INTER/TYPE3/1"
+  std::string field;     ///< e.g. "Gap"
+  int first_column = 0;  ///< 1-based, inclusive; 0 = no columns
   int last_column = 0;
 };
 

@@ -40,7 +40,8 @@ void Cycle::erode() {
   alive[4].assign(model_.tetras.id.size(), 1);
   for (const std::unique_ptr<elements::Group>& g : groups_) {
     for (Index e = 0; e < g->size(); ++e) {
-      alive[static_cast<std::size_t>(g->kind())][static_cast<std::size_t>(g->elements()[static_cast<std::size_t>(e)])] = g->active(e) ? 1 : 0;
+      alive[static_cast<std::size_t>(g->kind())][static_cast<std::size_t>(g->elements()[static_cast<std::size_t>(e)])] =
+          g->active(e) ? 1 : 0;
     }
   }
   init::update_erosion(model_, interfaces_, [&alive](const model::ElementRef& e) {

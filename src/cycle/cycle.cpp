@@ -23,42 +23,42 @@ void Cycle::advance(Sink& sink) {
   StepLimits limits;
   decide_outputs();
   switch_off_rigid_elements();
-  axes_.update(state_);                     //  1
-  clear_forces();                           //  2
-  loads_.apply(state_);                     //  3
-  internal_forces(limits);                  //  5, 8, 10
-  contact_forces(limits);                   //  4, 6, 7
+  axes_.update(state_);     //  1
+  clear_forces();           //  2
+  loads_.apply(state_);     //  3
+  internal_forces(limits);  //  5, 8, 10
+  contact_forces(limits);   //  4, 6, 7
   total_forces();
   {
     const Timer timer(*this, p_constraints);
-    sections_.gather(state_, slots_);           // 11
+    sections_.gather(state_, slots_);  // 11
     bodies_.gather(state_, boundary_);
-    walls_.add_reaction(state_);                // 12
-    scaled_energy_ += time_step_->scale_masses(state_);  // 13
+    walls_.add_reaction(state_);                                                  // 12
+    scaled_energy_ += time_step_->scale_masses(state_);                           // 13
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
-    booked_work_ = loads_.book_work(state_);    // 15
-    accelerate();                               // 16
-    gravities_.apply(state_);                   // 17
+    booked_work_ = loads_.book_work(state_);                                      // 15
+    accelerate();                                                                 // 16
+    gravities_.apply(state_);                                                     // 17
     booked_work_ += gravities_.book_work(state_);
-    boundary_.apply(state_);                    // 18
-    imposed_.apply(state_);                     // 20
+    boundary_.apply(state_);  // 18
+    imposed_.apply(state_);   // 20
     booked_work_ += imposed_.book_work(state_);
-    walls_.apply(state_);                       // 21
+    walls_.apply(state_);  // 21
     booked_work_ += walls_.work();
-    boundary_.apply(state_);                    // 22
-    bodies_.scatter(state_);                    // 23
+    boundary_.apply(state_);  // 22
+    bodies_.scatter(state_);  // 23
     book_interfaces();
-    close_balance();                            // 25
+    close_balance();  // 25
   }
   {
-    const Timer timer(*this, p_output);         // 26
+    const Timer timer(*this, p_output);  // 26
     const Snapshot now = snapshot();
     if (!begun_) sink.begin(now);
     begun_ = true;
     sink.cycle(now);
   }
   check_finite();
-  integrate();                                  // 27, 28, 29
+  integrate();  // 27, 28, 29
 }
 
 void Cycle::decide_outputs() {
@@ -117,8 +117,7 @@ void Cycle::internal_forces(StepLimits& limits) {
 void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
   const state::StepTimes& t = state_.times;
-  const contact::HostState host{state_.x, state_.v, state_.mass,
-                                t.t, t.h_minus, t.h_bar_old};
+  const contact::HostState host{state_.x, state_.v, state_.mass, t.t, t.h_minus, t.h_bar_old};
   {
     const Timer timer(*this, p_search);
     for (init::RunInterface& i : interfaces_) i.contact.search(host);

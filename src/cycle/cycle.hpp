@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "constraints/axes.hpp"
 #include "constraints/boundary_conditions.hpp"
 #include "constraints/curves.hpp"
-#include "constraints/axes.hpp"
 #include "constraints/imposed_motions.hpp"
 #include "constraints/loads.hpp"
 #include "constraints/rigid_bodies.hpp"
@@ -85,10 +85,10 @@ class Cycle {
   int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;
-  std::vector<double> contact_stiffness_;      // #N
+  std::vector<double> contact_stiffness_;                  // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
   std::vector<double> contact_area_;
-  bool releases_ = false;                      // some interface asks for IBC
+  bool releases_ = false;  // some interface asks for IBC
 
   std::unique_ptr<TimeStep> time_step_;
   Ledger ledger_;
@@ -99,8 +99,8 @@ class Cycle {
   bool begun_ = false;
   bool eroded_ = false;
   double scaled_energy_ = 0.0;
-  double booked_work_ = 0.0;   // external work of this cycle as the reference program books it
-  int beyond_limit_ = 0;       // cycles in a row with an energy error beyond the limit
+  double booked_work_ = 0.0;  // external work of this cycle as the reference program books it
+  int beyond_limit_ = 0;      // cycles in a row with an energy error beyond the limit
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;

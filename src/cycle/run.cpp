@@ -12,14 +12,22 @@ namespace {
 
 std::string_view kind_name(StepController::Kind kind) {
   switch (kind) {
-    case StepController::Kind::none: return "nothing";
-    case StepController::Kind::shell: return "shell";
-    case StepController::Kind::sh3n: return "triangle";
-    case StepController::Kind::brick: return "brick";
-    case StepController::Kind::tetra: return "tetrahedron";
-    case StepController::Kind::node: return "node";
-    case StepController::Kind::interface: return "contact at node";
-    case StepController::Kind::fixed: return "the deck's step limit";
+    case StepController::Kind::none:
+      return "nothing";
+    case StepController::Kind::shell:
+      return "shell";
+    case StepController::Kind::sh3n:
+      return "triangle";
+    case StepController::Kind::brick:
+      return "brick";
+    case StepController::Kind::tetra:
+      return "tetrahedron";
+    case StepController::Kind::node:
+      return "node";
+    case StepController::Kind::interface:
+      return "contact at node";
+    case StepController::Kind::fixed:
+      return "the deck's step limit";
   }
   return "?";
 }
@@ -51,9 +59,7 @@ RunReport run(const model::Model& model, const RunOptions& options, Sink& sink) 
       cycle.advance(sink);
     }
     if (outcome.kind == Outcome::Kind::finished) outcome.message = "the final time is reached";
-  } catch (const RunError& error) {
-    outcome = {Outcome::Kind::failed, error.what(), 0, 0.0};
-  }
+  } catch (const RunError& error) { outcome = {Outcome::Kind::failed, error.what(), 0, 0.0}; }
   outcome.cycles = cycle.state().times.cycle;
   outcome.time = cycle.state().times.t;
   if (options.phases != nullptr) {

@@ -23,16 +23,16 @@ struct PhaseTime {
 struct RunOptions {
   int threads = 1;
   Profile profile;
-  std::optional<contact::Law> interface_law;   ///< overrides the profile's law for every interface
-  int hash_every = 0;                          ///< cycles between state hashes, 0 = none
+  std::optional<contact::Law> interface_law;     ///< overrides the profile's law for every interface
+  int hash_every = 0;                            ///< cycles between state hashes, 0 = none
   const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler: the run ends cleanly
   std::vector<PhaseTime>* phases = nullptr;      ///< the phases are appended here before the sink's end()
 };
 
 struct RunReport {
   Outcome outcome;
-  double element_cycles = 0.0;     ///< elements times cycles
-  double worst_error = 0.0;        ///< largest |ERR|
+  double element_cycles = 0.0;       ///< elements times cycles
+  double worst_error = 0.0;          ///< largest |ERR|
   double worst_contact_error = 0.0;  ///< largest |CX| over the largest energy term
   std::uint64_t final_hash = 0;
 };

@@ -1,8 +1,8 @@
 // Construction of a Cycle: everything that happens once.
-#include "cycle/cycle.hpp"
-
 #include <algorithm>
 #include <variant>
+
+#include "cycle/cycle.hpp"
 
 namespace abut::cycle {
 
@@ -79,11 +79,16 @@ Id Cycle::element_id(const elements::Group& group, Index element) const {
   if (element == no_index) return 0;
   const auto i = static_cast<std::size_t>(group.elements()[static_cast<std::size_t>(element)]);
   switch (group.kind()) {
-    case model::ElementKind::shell4: return model_.shells.id[i];
-    case model::ElementKind::shell3: return model_.sh3ns.id[i];
-    case model::ElementKind::brick: return model_.bricks.id[i];
-    case model::ElementKind::tetra: return model_.tetras.id[i];
-    case model::ElementKind::none: break;
+    case model::ElementKind::shell4:
+      return model_.shells.id[i];
+    case model::ElementKind::shell3:
+      return model_.sh3ns.id[i];
+    case model::ElementKind::brick:
+      return model_.bricks.id[i];
+    case model::ElementKind::tetra:
+      return model_.tetras.id[i];
+    case model::ElementKind::none:
+      break;
   }
   return 0;
 }

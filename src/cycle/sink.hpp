@@ -26,10 +26,14 @@ struct StepController {
   Id id = 0;
 };
 
-struct PartResult { double ie = 0.0, he = 0.0; elements::PartSums sums; Index eroded = 0; };
+struct PartResult {
+  double ie = 0.0, he = 0.0;
+  elements::PartSums sums;
+  Index eroded = 0;
+};
 /// Forces are those of this cycle; impulses their time integrals (numerics.md 7.4.2, 6.1.5).
 struct InterfaceResult {
-  Vec3 normal_force, tangential_force;      ///< on the second (main) surface
+  Vec3 normal_force, tangential_force;  ///< on the second (main) surface
   Vec3 normal_impulse, tangential_impulse;
   double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;
   Index in_contact = 0;
@@ -44,18 +48,18 @@ struct Snapshot {
   const state::State* state = nullptr;
   const state::Balance* balance = nullptr;
   std::span<const std::unique_ptr<elements::Group>> groups;
-  std::span<const PartResult> parts;             ///< per model part; `sums` valid when history_due
-  std::span<const InterfaceResult> interfaces;   ///< per model interface
-  std::span<const Vec3> contact_normal;          ///< #N by 3, nodal normal contact force of all interfaces
-  std::span<const Vec3> contact_tangential;      ///< #N by 3
-  std::span<const double> contact_area;          ///< #N, tributary area of contact surfaces (0: not on one)
+  std::span<const PartResult> parts;            ///< per model part; `sums` valid when history_due
+  std::span<const InterfaceResult> interfaces;  ///< per model interface
+  std::span<const Vec3> contact_normal;         ///< #N by 3, nodal normal contact force of all interfaces
+  std::span<const Vec3> contact_tangential;     ///< #N by 3
+  std::span<const double> contact_area;         ///< #N, tributary area of contact surfaces (0: not on one)
   std::span<const WallResult> walls;
   std::span<const BodyResult> bodies;
   std::span<const SectionResult> sections;
   StepController controller;
-  bool history_due = false;    ///< a time-history row belongs to this cycle
-  bool animation_due = false;  ///< an animation state belongs to this cycle
-  bool listing_due = false;    ///< a line of the cycle listing belongs to this cycle
+  bool history_due = false;      ///< a time-history row belongs to this cycle
+  bool animation_due = false;    ///< an animation state belongs to this cycle
+  bool listing_due = false;      ///< a line of the cycle listing belongs to this cycle
   std::uint64_t state_hash = 0;  ///< valid when hash_due
   bool hash_due = false;
 };

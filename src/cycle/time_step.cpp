@@ -109,7 +109,8 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
   }
   if (!reference || two_sided_) take(limits.interface_step, limits.interface_controller);
   if (control.dt_max < step) take(control.dt_max, {StepController::Kind::fixed, 0});
-  if (s.times.cycle == 0 && control.dt_initial > 0.0 && control.dt_initial < step) take(control.dt_initial, {StepController::Kind::fixed, 0});
+  if (s.times.cycle == 0 && control.dt_initial > 0.0 && control.dt_initial < step)
+    take(control.dt_initial, {StepController::Kind::fixed, 0});
   if (1.1 * previous_step_ < step) step = 1.1 * previous_step_;
   if (step > 1e29) step = control.t_end > 0.0 ? 1e-3 * control.t_end : 1.0;  // nothing deforms: any step is stable
   previous_step_ = step;

@@ -15,25 +15,24 @@ namespace abut::cycle {
 
 /// What limits the coming step, collected during the cycle.
 struct StepLimits {
-  double element = 1e30;               ///< smallest scaled element step
+  double element = 1e30;  ///< smallest scaled element step
   StepController element_controller;
-  double interface_step = 1e30;        ///< kinematic limits of interfaces (closing speed against gap)
+  double interface_step = 1e30;  ///< kinematic limits of interfaces (closing speed against gap)
   StepController interface_controller;
 };
 
 class TimeStep {
  public:
   /// @param free_translation, free_rotation  #N: 0 where a node cannot move (all directions fixed): it does not control
-  TimeStep(const model::Model& model, const Profile& profile, bool has_two_sided_interface,
-           std::vector<std::uint8_t> free_translation, std::vector<std::uint8_t> free_rotation);
+  TimeStep(const model::Model& model, const Profile& profile, bool has_two_sided_interface, std::vector<std::uint8_t> free_translation,
+           std::vector<std::uint8_t> free_rotation);
 
   /// Adds mass where /DT/NODA/CST asks for it (2.3). @return energy that the added mass brings, m v.v/2
   double scale_masses(state::State& s);
 
   /// Chooses h_plus and h_bar of s.times; says who controls.
   /// @param contact_stiffness  #N: share of s.stiffness that comes from interfaces
-  StepController choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness,
-                        parallel::ThreadPool& pool);
+  StepController choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness, parallel::ThreadPool& pool);
 
   [[nodiscard]] double added_mass() const { return added_mass_; }
 
@@ -53,7 +52,7 @@ class TimeStep {
   std::vector<std::uint8_t> scaled_;  ///< nodes that may receive mass
   std::vector<Smallest> leaves_;
   double nodal_scale_ = 0.9;
-  double previous_step_ = 1e30;       ///< before the first cycle: no limit on growth
+  double previous_step_ = 1e30;  ///< before the first cycle: no limit on growth
   double added_mass_ = 0.0;
 };
 

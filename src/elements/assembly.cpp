@@ -19,11 +19,16 @@ struct Entry {
 Id element_id(const model::Model& model, model::ElementKind kind, Index i) {
   const auto k = static_cast<std::size_t>(i);
   switch (kind) {
-    case model::ElementKind::shell4: return model.shells.id[k];
-    case model::ElementKind::shell3: return model.sh3ns.id[k];
-    case model::ElementKind::brick: return model.bricks.id[k];
-    case model::ElementKind::tetra: return model.tetras.id[k];
-    case model::ElementKind::none: break;
+    case model::ElementKind::shell4:
+      return model.shells.id[k];
+    case model::ElementKind::shell3:
+      return model.sh3ns.id[k];
+    case model::ElementKind::brick:
+      return model.bricks.id[k];
+    case model::ElementKind::tetra:
+      return model.tetras.id[k];
+    case model::ElementKind::none:
+      break;
   }
   return 0;
 }
@@ -43,9 +48,8 @@ Assembly::Assembly(Index node_count, const model::Model& model, std::span<const 
       const std::span<const Index> nodes = g->nodes(e);
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         const auto corner = static_cast<int>(k);
-        list.push_back({nodes[k], static_cast<int>(g->kind()),
-                        element_id(model, g->kind(), g->elements()[static_cast<std::size_t>(e)]), corner,
-                        static_cast<std::uint32_t>(g->layout().at(e, corner, 0))});
+        list.push_back({nodes[k], static_cast<int>(g->kind()), element_id(model, g->kind(), g->elements()[static_cast<std::size_t>(e)]),
+                        corner, static_cast<std::uint32_t>(g->layout().at(e, corner, 0))});
       }
     }
   }

@@ -15,7 +15,7 @@ namespace abut::elements {
 
 /// Nodal sums of one assembly, #N (by 3).
 struct NodalSums {
-  std::span<Vec3> force;       ///< internal force
+  std::span<Vec3> force;  ///< internal force
   std::span<Vec3> moment;
   std::span<double> stiffness;
   std::span<double> rotational_stiffness;

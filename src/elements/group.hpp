@@ -35,23 +35,23 @@ struct StepInput {
 
 /// What a group says after a step.
 struct GroupResult {
-  double step = 1e30;               ///< smallest scaled element step s_e * dt_e of the group's active elements
-  Index step_element = no_index;    ///< element (group-local) that gives it
-  double internal_energy = 0.0;     ///< of the group, without hourglass
+  double step = 1e30;             ///< smallest scaled element step s_e * dt_e of the group's active elements
+  Index step_element = no_index;  ///< element (group-local) that gives it
+  double internal_energy = 0.0;   ///< of the group, without hourglass
   double hourglass_energy = 0.0;
-  double removed_energy = 0.0;      ///< internal + hourglass energy that all elements deleted so far held; not in the two above
-  Index removed = 0;                ///< elements deleted in this cycle
-  Index bad_element = no_index;     ///< first element with a non-finite result or a negative volume, group-local
+  double removed_energy = 0.0;   ///< internal + hourglass energy that all elements deleted so far held; not in the two above
+  Index removed = 0;             ///< elements deleted in this cycle
+  Index bad_element = no_index;  ///< first element with a non-finite result or a negative volume, group-local
 };
 
 /// Values of one element for output (numerics.md 8.5, 8.6). Unused members stay 0.
 struct ElementOutput {
-  double off = 1.0;                        ///< activity: 1 active, 0 deleted
+  double off = 1.0;  ///< activity: 1 active, 0 deleted
   double internal_energy = 0.0, membrane_energy = 0.0, bending_energy = 0.0, hourglass_energy = 0.0;
   double plastic_min = 0.0, plastic_max = 0.0;
   double density = 0.0, volume = 0.0, thickness = 0.0, pressure = 0.0, von_mises = 0.0, bulk_viscosity = 0.0;
-  std::array<double, 6> stress{};          ///< mean Cauchy stress xx yy zz xy yz zx, global axes
-  std::array<double, 8> resultants{};      ///< shells: F1 F2 F12 Q1 Q2 M1 M2 M12 (numerics.md 8.5), element frame
+  std::array<double, 6> stress{};      ///< mean Cauchy stress xx yy zz xy yz zx, global axes
+  std::array<double, 8> resultants{};  ///< shells: F1 F2 F12 Q1 Q2 M1 M2 M12 (numerics.md 8.5), element frame
 };
 
 /// Sums over a part for the time history (numerics.md 8.3); `v` at the entry of the cycle.
@@ -75,8 +75,11 @@ struct SlotLayout {
   [[nodiscard]] std::size_t at(Index element, int node, int component) const {
     const auto b = static_cast<std::size_t>(element / lanes);
     const auto l = static_cast<std::size_t>(element % lanes);
-    return offset + ((b * static_cast<std::size_t>(nodes_per_element) + static_cast<std::size_t>(node)) *
-                         static_cast<std::size_t>(components) + static_cast<std::size_t>(component)) * lanes + l;
+    return offset +
+           ((b * static_cast<std::size_t>(nodes_per_element) + static_cast<std::size_t>(node)) * static_cast<std::size_t>(components) +
+            static_cast<std::size_t>(component)) *
+               lanes +
+           l;
   }
 };
 
@@ -131,8 +134,8 @@ struct GroupInput {
   Index part = no_index;
   std::vector<Index> elements;  ///< indices into the model's table of that kind, sorted by id
   Profile profile;
-  double step_scale = 0.9;      ///< s_e of the Engine deck for this family
-  double step_minimum = 0.0;    ///< Tmin with `step_action`
+  double step_scale = 0.9;    ///< s_e of the Engine deck for this family
+  double step_minimum = 0.0;  ///< Tmin with `step_action`
   model::StepControl::Action step_action = model::StepControl::Action::none;
 };
 

@@ -30,11 +30,16 @@ double property_thickness(const model::Property& p) {
 Index part_of(const model::Model& model, const ElementRef& e) {
   const auto i = static_cast<std::size_t>(e.index);
   switch (e.kind) {
-    case ElementKind::shell4: return model.shells.part[i];
-    case ElementKind::shell3: return model.sh3ns.part[i];
-    case ElementKind::brick: return model.bricks.part[i];
-    case ElementKind::tetra: return model.tetras.part[i];
-    case ElementKind::none: break;
+    case ElementKind::shell4:
+      return model.shells.part[i];
+    case ElementKind::shell3:
+      return model.sh3ns.part[i];
+    case ElementKind::brick:
+      return model.bricks.part[i];
+    case ElementKind::tetra:
+      return model.tetras.part[i];
+    case ElementKind::none:
+      break;
   }
   return no_index;
 }
@@ -142,7 +147,8 @@ std::array<Index, 4> distinct_first(const std::array<Index, 4>& face) {
   std::array<Index, 4> out{};
   std::size_t count = 0;
   for (const Index n : face) {
-    if (std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count), n) == out.begin() + static_cast<std::ptrdiff_t>(count)) out[count++] = n;
+    if (std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count), n) == out.begin() + static_cast<std::ptrdiff_t>(count))
+      out[count++] = n;
   }
   if (count == 3) out[3] = out[2];
   return out;
@@ -256,9 +262,8 @@ double segment_stiffness(const model::Model& model, const model::Segment& segmen
 std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, std::optional<contact::Law> law,
                                           state::State& state) {
   std::optional<FaceOwners> owners;
-  if (std::any_of(model.interfaces.begin(), model.interfaces.end(), [](const model::Interface& i) {
-        return i.idel != 0 || !std::holds_alternative<model::InterfaceType3>(i.type);
-      })) {
+  if (std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                  [](const model::Interface& i) { return i.idel != 0 || !std::holds_alternative<model::InterfaceType3>(i.type); })) {
     owners.emplace(model);
   }
   const std::span<const Vec3> x(state.x);
@@ -280,10 +285,10 @@ std::vector<RunInterface> make_interfaces(const model::Model& model, const Profi
       out.push_back(std::move(r));
     } else if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
       const model::Surface& main = model.surfaces[static_cast<std::size_t>(t5->surface)];
-      RunInterface r{static_cast<Index>(i),
-                     contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(model, main),
-                                                          options),
-                     {{}, make_side(model, main, own, x)}};
+      RunInterface r{
+          static_cast<Index>(i),
+          contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(model, main), options),
+          {{}, make_side(model, main, own, x)}};
       r.contact.set_surface(1, {r.sides[1].stiffness, {}, r.sides[1].active});
       out.push_back(std::move(r));
     } else if (const auto* t7 = std::get_if<model::InterfaceType7>(&card.type)) {
@@ -300,8 +305,7 @@ std::vector<RunInterface> make_interfaces(const model::Model& model, const Profi
   return out;
 }
 
-void update_erosion(const model::Model& model, std::span<RunInterface> interfaces,
-                    const std::function<bool(const ElementRef&)>& alive) {
+void update_erosion(const model::Model& model, std::span<RunInterface> interfaces, const std::function<bool(const ElementRef&)>& alive) {
   for (RunInterface& r : interfaces) {
     const int idel = std::abs(model.interfaces[static_cast<std::size_t>(r.model_index)].idel);
     if (idel == 0) continue;

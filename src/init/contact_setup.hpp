@@ -34,8 +34,8 @@ struct RunInterface {
 
 /// @param law  overrides the profile's normal law for every interface when set (--interface-law)
 /// @param state  initial state after rigid bodies moved their main nodes; `Inacti` of TYPE5 and TYPE7 may move nodes
-[[nodiscard]] std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile,
-                                                        std::optional<contact::Law> law, state::State& state);
+[[nodiscard]] std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, std::optional<contact::Law> law,
+                                                        state::State& state);
 
 /// Switches off facets whose elements were deleted: Idel 1 when all of them are, Idel 2 when one is (numerics.md 7.4.7).
 /// @param alive  tells whether an element is still active

@@ -86,8 +86,7 @@ ABUT_INLINE T temperature_factor(const ShellJohnsonCook& law, T temperature) {
 }
 
 template <class T>
-ABUT_INLINE PlasticUpdate<T> radial_return(const ShellJohnsonCook& law, const PlaneStress<T>& trial, T mises, T yield,
-                                           T p, T activity) {
+ABUT_INLINE PlasticUpdate<T> radial_return(const ShellJohnsonCook& law, const PlaneStress<T>& trial, T mises, T yield, T p, T activity) {
   const T ratio = yield / mises;
   PlasticUpdate<T> u;
   u.stress = {ratio * trial.xx, ratio * trial.yy, ratio * trial.xy};
@@ -99,8 +98,7 @@ ABUT_INLINE PlasticUpdate<T> radial_return(const ShellJohnsonCook& law, const Pl
 }
 
 template <class T>
-ABUT_INLINE PlasticUpdate<T> iterative_return(const ShellJohnsonCook& law, const PlaneStress<T>& trial, T mises,
-                                              T yield, T p, T q, T cap) {
+ABUT_INLINE PlasticUpdate<T> iterative_return(const ShellJohnsonCook& law, const PlaneStress<T>& trial, T mises, T yield, T p, T q, T cap) {
   const T e = T(law.young), zero = T(0.0), one = T(1.0);
   const T sum = trial.xx + trial.yy, difference = trial.xx - trial.yy;
   const T a = T(0.25) * (sum * sum), b = T(0.75) * (difference * difference) + T(3.0) * (trial.xy * trial.xy);
@@ -114,8 +112,8 @@ ABUT_INLINE PlasticUpdate<T> iterative_return(const ShellJohnsonCook& law, const
     const T r = T(0.5) * e * d / y;
     const T pp = one / (one + nu_1 * r), qq = one / (one + nu_2 * r);
     const T phi = a * pp * pp + b * qq * qq - y * y;
-    const T slope_phi = -((a * pp * pp * pp * nu_1 + b * qq * qq * qq * nu_2) * (e - T(2.0) * r * h_isotropic) / y) -
-                        T(2.0) * h_isotropic * y;
+    const T slope_phi =
+        -((a * pp * pp * pp * nu_1 + b * qq * qq * qq * nu_2) * (e - T(2.0) * r * h_isotropic) / y) - T(2.0) * h_isotropic * y;
     d = select(d > zero, max(d - phi / slope_phi, zero), zero);
   }
   PlasticUpdate<T> u;
@@ -131,8 +129,7 @@ ABUT_INLINE PlasticUpdate<T> iterative_return(const ShellJohnsonCook& law, const
 }
 
 template <class T>
-ABUT_INLINE PlasticUpdate<T> normal_return(const ShellJohnsonCook& law, const PlaneStress<T>& trial, T mises, T yield,
-                                           T p, T q, T cap) {
+ABUT_INLINE PlasticUpdate<T> normal_return(const ShellJohnsonCook& law, const PlaneStress<T>& trial, T mises, T yield, T p, T q, T cap) {
   const T one = T(1.0), two = T(2.0);
   const T m2 = mises * mises;
   const T beta = (m2 - yield * yield) / (T(5.0) * m2 + T(3.0) * (trial.xy * trial.xy - trial.xx * trial.yy));

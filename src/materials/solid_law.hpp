@@ -68,26 +68,24 @@ struct JohnsonCook {
 /// History of LAW2 at a point.
 template <class R>
 struct JohnsonCookState {
-  R strain;       ///< equivalent plastic strain
-  R yield;        ///< a + b ep^n
-  R slope;        ///< n b ep^(n-1); 0 while ep = 0 unless n = 1
-  R rate;         ///< filtered strain rate
+  R strain;  ///< equivalent plastic strain
+  R yield;   ///< a + b ep^n
+  R slope;   ///< n b ep^(n-1); 0 while ep = 0 unless n = 1
+  R rate;    ///< filtered strain rate
   R temperature;
 };
 
 inline constexpr int johnson_cook_fields = 5;
 
 /// a + b ep^n and its slope for ep = 0.
-ABUT_INLINE JohnsonCookState<double> initial_state(const JohnsonCook& m) {
-  return {0.0, m.a, m.n == 1.0 ? m.b : 0.0, 0.0, m.t_ref};
-}
+ABUT_INLINE JohnsonCookState<double> initial_state(const JohnsonCook& m) { return {0.0, m.a, m.n == 1.0 ? m.b : 0.0, 0.0, m.t_ref}; }
 
 /// Returns the trial deviator `s` to the yield surface and moves the history on.
 /// @param d,dev   D and dev(D)
 /// @param inv_dt  1/h, 0 in the first cycle (h = 0)
 template <class R>
-ABUT_INLINE void return_map(const JohnsonCook& m, double shear, double dt, double inv_dt, const Sym<R>& d, const Sym<R>& dev,
-                            Sym<R>& s, JohnsonCookState<R>& state) {
+ABUT_INLINE void return_map(const JohnsonCook& m, double shear, double dt, double inv_dt, const Sym<R>& d, const Sym<R>& dev, Sym<R>& s,
+                            JohnsonCookState<R>& state) {
   const R zero(0.0), one(1.0);
   const double alpha = m.filter > 0.0 ? simd::min(1.0, m.filter * dt) : 1.0;
   R factor = one;
@@ -118,9 +116,7 @@ ABUT_INLINE void return_map(const JohnsonCook& m, double shear, double dt, doubl
     const R ratio = simd::select(flows, simd::min(one, y / simd::select(flows, von_mises, one)), one);
     s = scaled(s, ratio);
     state.strain = state.strain + dep;
-    if (m.rho_cp > 0.0) {
-      state.temperature = simd::min(R(m.t_max), state.temperature + y * dep * R(1.0 / m.rho_cp));
-    }
+    if (m.rho_cp > 0.0) { state.temperature = simd::min(R(m.t_max), state.temperature + y * dep * R(1.0 / m.rho_cp)); }
     if (m.n == 1.0) {
       state.yield = R(m.a) + R(m.b) * state.strain;
     } else if (m.b != 0.0) {

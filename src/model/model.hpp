@@ -26,8 +26,12 @@ struct Units {
 
 // ---- materials (numerics.md 5) ------------------------------------------------------------------------------------
 
-struct LawVoid { double young = 0.0, poisson = 0.0; };                   ///< LAW0
-struct LawElastic { double young = 0.0, poisson = 0.0; };                ///< LAW1
+struct LawVoid {
+  double young = 0.0, poisson = 0.0;
+};  ///< LAW0
+struct LawElastic {
+  double young = 0.0, poisson = 0.0;
+};  ///< LAW1
 /// LAW2, Johnson-Cook; a, b, n already derived when the card gave yield and ultimate stress (Iflag 1).
 struct LawJohnsonCook {
   double young = 0.0, poisson = 0.0;
@@ -35,9 +39,9 @@ struct LawJohnsonCook {
   double eps_max = 1e20, sigma_max = 1e20;
   double c = 0.0, eps_rate_0 = 0.0;
   int icc = 1;
-  int vp = 2;               ///< 1 plastic, 2 total, 3 deviatoric strain rate
-  double cutoff = 0.0;      ///< F_cut, 0 = no filter
-  double kinematic = 0.0;   ///< C_hard
+  int vp = 2;              ///< 1 plastic, 2 total, 3 deviatoric strain rate
+  double cutoff = 0.0;     ///< F_cut, 0 = no filter
+  double kinematic = 0.0;  ///< C_hard
   double m = 1.0, t_melt = 1e20, rho_cp = 0.0, t_ref = 300.0, t_max = 1e20;
   double p_min = -1e20;
 };
@@ -67,7 +71,9 @@ struct SolidProperty {
   int imas = 2;  ///< /DEF_SOLID: 2 homogeneous mass split, 1 by node angle
   double qa = 1.1, qb = 0.05, h = 0.1, dt_min = 0.0, dn = 0.1;
 };
-struct VoidProperty { double thickness = 0.0; };
+struct VoidProperty {
+  double thickness = 0.0;
+};
 
 struct Property {
   Id id = 0;
@@ -113,7 +119,7 @@ struct NodeGroup {
 /// One face; a triangle repeats its third node. Positive side: right-hand rule over the nodes.
 struct Segment {
   std::array<Index, 4> nodes{no_index, no_index, no_index, no_index};
-  ElementRef element;        ///< the element behind it: a shell wins over a solid (T18); none = no stiffness
+  ElementRef element;  ///< the element behind it: a shell wins over a solid (T18); none = no stiffness
 };
 struct Surface {
   Id id = 0;
@@ -153,7 +159,7 @@ struct BoundaryCondition {
 struct InitialVelocity {
   Id id = 0;
   bool rotational = false;
-  Vec3 value;             ///< global axes
+  Vec3 value;  ///< global axes
   std::vector<Index> nodes;
 };
 /// /INIVEL/AXIS: v = translation + rate * axis x (x - origin)
@@ -214,22 +220,22 @@ struct RigidBody {
   int ispher = 2, icog = 1;
   bool keep_in_walls = false;  ///< Ikrem == 1
   double mass = 0.0;
-  Vec3 j_diagonal, j_off;      ///< Jxx Jyy Jzz; Jxy Jyz Jxz
-  std::vector<Index> nodes;    ///< secondary nodes, main excluded
-  bool active = true;          ///< /RBODY/OFF of the Engine switches it off
+  Vec3 j_diagonal, j_off;    ///< Jxx Jyy Jzz; Jxy Jyz Jxz
+  std::vector<Index> nodes;  ///< secondary nodes, main excluded
+  bool active = true;        ///< /RBODY/OFF of the Engine switches it off
 };
 
 struct RigidWall {
   Id id = 0;
   std::string title;
-  Index node = no_index;       ///< moving wall: attached to this node
-  int slide = 0;               ///< 0 frictionless, 1 tied, 2 friction
+  Index node = no_index;  ///< moving wall: attached to this node
+  int slide = 0;          ///< 0 frictionless, 1 tied, 2 friction
   double friction = 0.0, filter = 0.0;
-  int filter_kind = 0;         ///< ifq
+  int filter_kind = 0;  ///< ifq
   double mass = 0.0;
-  Vec3 velocity;               ///< initial velocity of the moving wall
-  Vec3 point, normal;          ///< plane through `point`, unit normal into the admissible side
-  std::vector<Index> nodes;    ///< resolved: Dsearch plus group 1 minus group 2
+  Vec3 velocity;             ///< initial velocity of the moving wall
+  Vec3 point, normal;        ///< plane through `point`, unit normal into the admissible side
+  std::vector<Index> nodes;  ///< resolved: Dsearch plus group 1 minus group 2
 };
 
 // ---- interfaces (deck-format.md E) --------------------------------------------------------------------------------
@@ -265,7 +271,7 @@ struct Interface {
   double xfreq = 0.0;
   std::array<double, 6> c{};
   Index sensor = no_index;
-  Place place;             ///< where the deck defines it: findings of the inspection name it
+  Place place;  ///< where the deck defines it: findings of the inspection name it
 };
 
 struct Section {
@@ -293,7 +299,10 @@ struct ThRequest {
 
 // ---- Engine deck (deck-format.md G) -------------------------------------------------------------------------------
 
-struct StepControl { double scale = 0.9, minimum = 0.0; enum class Action { none, stop, remove, constant } action = Action::none; };
+struct StepControl {
+  double scale = 0.9, minimum = 0.0;
+  enum class Action { none, stop, remove, constant } action = Action::none;
+};
 
 struct Controls {
   std::string run_name;
@@ -301,19 +310,19 @@ struct Controls {
   double t_end = 0.0;
   double history_interval = infinity;
   double animation_start = infinity, animation_interval = infinity;
-  std::vector<std::string> animation_fields;   ///< "VECT/DISP", "ELEM/VONM", "SHELL/TENS/STRESS/MEMB", ... upper case
+  std::vector<std::string> animation_fields;  ///< "VECT/DISP", "ELEM/VONM", "SHELL/TENS/STRESS/MEMB", ... upper case
   int print_every = 100;
   StepControl shell, sh3n, brick, tetra;
-  bool nodal_step = false;          ///< /DT/NODA in any form
+  bool nodal_step = false;  ///< /DT/NODA in any form
   double nodal_scale = 0.9, nodal_minimum = 0.0;
-  bool mass_scaling = false;        ///< /DT/NODA/CST
-  std::vector<Index> mass_scaling_nodes;       ///< empty = all
+  bool mass_scaling = false;              ///< /DT/NODA/CST
+  std::vector<Index> mass_scaling_nodes;  ///< empty = all
   double contact_scale = 0.9, contact_minimum = 0.0;
   bool contact_scale_given = false;
   StepControl::Action contact_action = StepControl::Action::none;
-  double dt_initial = 0.0, dt_max = infinity;  ///< /DTIX
+  double dt_initial = 0.0, dt_max = infinity;                                    ///< /DTIX
   double stop_energy_error = 0.0, stop_total_mass = 0.0, stop_nodal_mass = 0.0;  ///< /STOP; 0 = not checked
-  int restart_every = 0;            ///< /RFILE cycles, 0 = none
+  int restart_every = 0;                                                         ///< /RFILE cycles, 0 = none
   std::vector<Id> rbody_on, rbody_off;
 };
 

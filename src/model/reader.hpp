@@ -18,9 +18,9 @@ struct Dimension {
   int mass = 0, length = 0, time = 0;
 };
 namespace dim {
-inline constexpr Dimension none{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, force{1, 1, -2}, pressure{1, -1, -2},
-    velocity{0, 1, -1}, acceleration{0, 1, -2}, density{1, -3, 0}, stiffness{1, 0, -2}, energy{1, 2, -2}, rate{0, 0, -1},
-    rate2{0, 0, -2}, inertia{1, 2, 0}, moment{1, 2, -2}, mass_per_area{1, -2, 0};
+inline constexpr Dimension none{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, force{1, 1, -2}, pressure{1, -1, -2}, velocity{0, 1, -1},
+    acceleration{0, 1, -2}, density{1, -3, 0}, stiffness{1, 0, -2}, energy{1, 2, -2}, rate{0, 0, -1}, rate2{0, 0, -2}, inertia{1, 2, 0},
+    moment{1, 2, -2}, mass_per_area{1, -2, 0};
 }  // namespace dim
 
 /// Ids to indices, one table per family (A.7). Filled as the families are read; a set id appears in every table it may serve.
@@ -54,10 +54,10 @@ struct Context {
   std::vector<IndexGroup> shell_groups, sh3n_groups, brick_groups, part_groups;
   ShellDefaults shell_defaults;
   SolidDefaults solid_defaults;
-  std::vector<Id> part_subset;             ///< subset id of each part (0: root)
-  std::vector<bool> part_lacks_material;   ///< the card of the part names none
-  Units input;                             ///< units of the deck's values; work units are model->units
-  std::unordered_map<Id, Units> local;     ///< /UNIT/id
+  std::vector<Id> part_subset;            ///< subset id of each part (0: root)
+  std::vector<bool> part_lacks_material;  ///< the card of the part names none
+  Units input;                            ///< units of the deck's values; work units are model->units
+  std::unordered_map<Id, Units> local;    ///< /UNIT/id
 
   /// Factor from the deck's value to the work unit, with the local unit system `unit_id` (0: input units of /BEGIN).
   [[nodiscard]] double factor(Dimension d, Id unit_id) const;
@@ -94,8 +94,8 @@ class BlockReader {
 
   void error(std::string_view code, deck::Columns c, std::string_view field, std::string message);
   void warning(std::string_view code, deck::Columns c, std::string_view field, std::string message);
-  [[nodiscard]] Place place() const;                                            ///< of the block
-  [[nodiscard]] Place place(deck::Columns c, std::string_view field) const;      ///< of a field of the current card
+  [[nodiscard]] Place place() const;                                         ///< of the block
+  [[nodiscard]] Place place(deck::Columns c, std::string_view field) const;  ///< of a field of the current card
   Context& context() { return *context_; }
 
  private:
@@ -110,16 +110,16 @@ class BlockReader {
 
 // Readers by group of keywords. Each takes the blocks it knows (returns true) and leaves the others (false).
 // `pass` order is fixed by build.cpp: everything that others refer to comes first (A.7: order of blocks is free).
-void read_control(Context& c);       ///< /BEGIN units version title, /UNIT, /DEF_*, /ANALY, /SHFRA, /RANDOM, /IOFLAG ...
-void read_mesh(Context& c);          ///< /NODE, /PART, elements, /PROP, /MAT, /FUNCT, /SKEW
-void read_sets(Context& c);          ///< /GRNOD, /GRSHEL, ..., /BOX, /SUBSET, /SURF, /SET
-void read_sensors(Context& c);       ///< /SENSOR
-void read_conditions(Context& c);    ///< /BCS, /INIVEL, /IMP*, /CLOAD, /PLOAD, /GRAV, /ADMAS, /RBODY, /RWALL
-void read_interfaces(Context& c);    ///< /INTER
-void read_outputs(Context& c);       ///< /TH, /SECT, /ACCEL
+void read_control(Context& c);     ///< /BEGIN units version title, /UNIT, /DEF_*, /ANALY, /SHFRA, /RANDOM, /IOFLAG ...
+void read_mesh(Context& c);        ///< /NODE, /PART, elements, /PROP, /MAT, /FUNCT, /SKEW
+void read_sets(Context& c);        ///< /GRNOD, /GRSHEL, ..., /BOX, /SUBSET, /SURF, /SET
+void read_sensors(Context& c);     ///< /SENSOR
+void read_conditions(Context& c);  ///< /BCS, /INIVEL, /IMP*, /CLOAD, /PLOAD, /GRAV, /ADMAS, /RBODY, /RWALL
+void read_interfaces(Context& c);  ///< /INTER
+void read_outputs(Context& c);     ///< /TH, /SECT, /ACCEL
 void read_engine(Context& c, const deck::Deck& engine);  ///< Engine deck -> Model::controls
-void check_keywords(Context& c);     ///< keywords nobody took: refused when they can change physics, else listed as skipped
+void check_keywords(Context& c);  ///< keywords nobody took: refused when they can change physics, else listed as skipped
 [[nodiscard]] bool is_refused(const deck::Block& block);  ///< check_keywords refuses this block: readers pass over it
-void validate(Context& c);           ///< what can only be judged with everything read (shared nodes, zero areas, masses ...)
+void validate(Context& c);  ///< what can only be judged with everything read (shared nodes, zero areas, masses ...)
 
 }  // namespace abut::model

@@ -32,12 +32,18 @@ constexpr std::array<const char*, 6> tensor_components{"XX", "YY", "ZZ", "XY", "
 
 int vtk_type(CellKind kind) {
   switch (kind) {
-    case CellKind::triangle: return VTK_TRIANGLE;
-    case CellKind::quadrilateral: return VTK_QUAD;
-    case CellKind::tetrahedron: return VTK_TETRA;
-    case CellKind::wedge: return VTK_WEDGE;
-    case CellKind::pyramid: return VTK_PYRAMID;
-    case CellKind::hexahedron: return VTK_HEXAHEDRON;
+    case CellKind::triangle:
+      return VTK_TRIANGLE;
+    case CellKind::quadrilateral:
+      return VTK_QUAD;
+    case CellKind::tetrahedron:
+      return VTK_TETRA;
+    case CellKind::wedge:
+      return VTK_WEDGE;
+    case CellKind::pyramid:
+      return VTK_PYRAMID;
+    case CellKind::hexahedron:
+      return VTK_HEXAHEDRON;
   }
   return VTK_EMPTY_CELL;
 }
@@ -52,11 +58,20 @@ std::string xml_escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -93,8 +108,8 @@ struct Animation::Grid {
   void fill_cells(const cycle::Snapshot& now);
 
   AnimationFields fields_;
-  std::vector<Cell> cells_;    ///< all elements of the model
-  std::vector<Index> shown_;   ///< those that are in the grid: not deleted
+  std::vector<Cell> cells_;   ///< all elements of the model
+  std::vector<Index> shown_;  ///< those that are in the grid: not deleted
   vtkNew<vtkUnstructuredGrid> grid_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkDoubleArray> time_;
@@ -120,8 +135,9 @@ Animation::Grid::Grid(const cycle::Snapshot& first) : fields_(select_animation_f
     if (n[2] == n[3]) return CellShape{CellKind::triangle, {n[0], n[1], n[2]}, 3};
     return CellShape{CellKind::quadrilateral, {n[0], n[1], n[2], n[3]}, 4};
   });
-  add_table(model.sh3ns, model::ElementKind::shell3,
-            [](const std::array<Index, 3>& n) { return CellShape{CellKind::triangle, {n[0], n[1], n[2]}, 3}; });
+  add_table(model.sh3ns, model::ElementKind::shell3, [](const std::array<Index, 3>& n) {
+    return CellShape{CellKind::triangle, {n[0], n[1], n[2]}, 3};
+  });
   add_table(model.bricks, model::ElementKind::brick, [x](const std::array<Index, 8>& n) { return brick_shape(n, x); });
   add_table(model.tetras, model::ElementKind::tetra, [x](const std::array<Index, 4>& n) { return tetra_shape(n, x); });
 
@@ -249,8 +265,7 @@ void Animation::cycle(const cycle::Snapshot& now) {
 }
 
 void Animation::write_index() const {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
   for (std::size_t k = 0; k < times_.size(); ++k) {
     const std::filesystem::path file = folder_.animation_state(static_cast<int>(k)).lexically_relative(folder_.directory);
     text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times_[k], xml_escaped(file.generic_string()));

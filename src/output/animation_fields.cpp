@@ -16,7 +16,7 @@ void put(const Vec3& v, double* out) {
   out[2] = v.z;
 }
 
-template <std::vector<Vec3> state::State::* member>
+template <std::vector<Vec3> state::State::*member>
 void write_vector(const Snapshot& s, std::size_t n, double* out) {
   put((s.state->*member)[n], out);
 }
@@ -49,10 +49,10 @@ const NodeField pressure_tangential{"contact_pressure_tangential", 3, [](const S
 
 const CellField plastic_strain{"plastic_strain", 1, [](const ElementSample& e, double* out) { *out = e.output.plastic_max; }};
 const CellField von_mises{"von_mises", 1, [](const ElementSample& e, double* out) { *out = e.output.von_mises; }};
-const CellField stress{"stress", 6, [](const ElementSample& e, double* out) { std::copy(e.output.stress.begin(), e.output.stress.end(), out); }};
-const CellField energy{"energy_per_mass", 1, [](const ElementSample& e, double* out) {
-                         *out = e.mass > 0.0 ? e.output.internal_energy / e.mass : 0.0;
-                       }};
+const CellField stress{"stress", 6,
+                       [](const ElementSample& e, double* out) { std::copy(e.output.stress.begin(), e.output.stress.end(), out); }};
+const CellField energy{"energy_per_mass", 1,
+                       [](const ElementSample& e, double* out) { *out = e.mass > 0.0 ? e.output.internal_energy / e.mass : 0.0; }};
 const CellField pressure{"pressure", 1, [](const ElementSample& e, double* out) { *out = e.output.pressure; }};
 const CellField density{"density", 1, [](const ElementSample& e, double* out) { *out = e.output.density; }};
 const CellField thickness{"thickness", 1, [](const ElementSample& e, double* out) { *out = e.output.thickness; }};
@@ -60,9 +60,9 @@ const CellField hourglass{"hourglass_energy", 1, [](const ElementSample& e, doub
 
 /// Selections that ask for something which every state has (OFF: only active elements are in it), or for nothing that is a field.
 bool is_always_there(std::string_view s) {
-  static const std::set<std::string_view> names{"VECT/DISP",        "VECT/VEL",         "VECT/CONT", "VECT/PCONT", "ELEM/EPSP",         "ELEM/VONM",
-                                                "ELEM/OFF",         "ELEM/SIGX",        "ELEM/SIGY", "ELEM/SIGZ",  "ELEM/SIGXY",        "ELEM/SIGYZ",
-                                                "ELEM/SIGZX",       "TENS/STRESS/MEMB", "TENS/STRESS", "GZIP",     "TENS/STRESS/000"};
+  static const std::set<std::string_view> names{
+      "VECT/DISP", "VECT/VEL",   "VECT/CONT",  "VECT/PCONT", "ELEM/EPSP",        "ELEM/VONM",   "ELEM/OFF", "ELEM/SIGX",      "ELEM/SIGY",
+      "ELEM/SIGZ", "ELEM/SIGXY", "ELEM/SIGYZ", "ELEM/SIGZX", "TENS/STRESS/MEMB", "TENS/STRESS", "GZIP",     "TENS/STRESS/000"};
   return names.contains(s);
 }
 
@@ -84,13 +84,12 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
                                                                                {"VECT/FINT", internal_force},
                                                                                {"VECT/FEXT", external_force},
                                                                                {"MASS", mass}};
-  static const std::vector<std::pair<std::string_view, CellField>> cell_fields{
-      {"ELEM/ENER", energy},     {"ELEM/P", pressure},      {"ELEM/DENS", density},
-      {"ELEM/HOURG", hourglass}, {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
+  static const std::vector<std::pair<std::string_view, CellField>> cell_fields{{"ELEM/ENER", energy},    {"ELEM/P", pressure},
+                                                                               {"ELEM/DENS", density},   {"ELEM/HOURG", hourglass},
+                                                                               {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
 
-  AnimationFields fields{{displacement, velocity, contact_force, pressure_normal, pressure_tangential},
-                         {plastic_strain, von_mises, stress},
-                         {}};
+  AnimationFields fields{
+      {displacement, velocity, contact_force, pressure_normal, pressure_tangential}, {plastic_strain, von_mises, stress}, {}};
   const auto add_once = [](auto& list, const auto& field) {
     if (std::none_of(list.begin(), list.end(), [&](const auto& f) { return f.name == field.name; })) list.push_back(field);
   };

@@ -34,7 +34,7 @@ std::vector<Face> proper_faces(const std::array<Index, 8>& nodes) {
 }
 
 bool connected(const std::array<Index, 8>& nodes, Index a, Index b) {
-  return std::any_of(std::begin(edges), std::end(edges), [&](const int (&edge)[2]) {
+  return std::any_of(std::begin(edges), std::end(edges), [&](const int(&edge)[2]) {
     const Index p = nodes[static_cast<std::size_t>(edge[0])];
     const Index q = nodes[static_cast<std::size_t>(edge[1])];
     return (p == a && q == b) || (p == b && q == a);

@@ -27,7 +27,7 @@ std::optional<std::pair<std::string_view, int>> split_component(std::string_view
   return std::nullopt;
 }
 
-Value balance_term(double state::Balance::* term) {
+Value balance_term(double state::Balance::*term) {
   return [term](const Snapshot& s) { return s.balance->*term; };
 }
 
@@ -35,11 +35,11 @@ Value balance_term(double state::Balance::* term) {
 
 using NodalVectors = std::vector<Vec3> state::State::*;
 constexpr std::array<std::pair<std::string_view, NodalVectors>, 6> nodal_vectors{{{"D", &state::State::u},
-                                                                                 {"V", &state::State::v},
-                                                                                 {"A", &state::State::a},
-                                                                                 {"VR", &state::State::w},
-                                                                                 {"AR", &state::State::alpha},
-                                                                                 {"", &state::State::x}}};
+                                                                                  {"V", &state::State::v},
+                                                                                  {"A", &state::State::a},
+                                                                                  {"VR", &state::State::w},
+                                                                                  {"AR", &state::State::alpha},
+                                                                                  {"", &state::State::x}}};
 
 Value node_value(std::string_view variable, Index node, Index skew) {
   const auto parts = split_component(variable);
@@ -85,26 +85,36 @@ using ElementValue = double (*)(const elements::ElementOutput&);
 
 const std::map<std::string_view, ElementValue>& shell_table() {
   using Out = elements::ElementOutput;
-  static const std::map<std::string_view, ElementValue> table{
-      {"F1", [](const Out& o) { return o.resultants[0]; }},    {"F2", [](const Out& o) { return o.resultants[1]; }},
-      {"F12", [](const Out& o) { return o.resultants[2]; }},   {"Q1", [](const Out& o) { return o.resultants[3]; }},
-      {"Q2", [](const Out& o) { return o.resultants[4]; }},    {"M1", [](const Out& o) { return o.resultants[5]; }},
-      {"M2", [](const Out& o) { return o.resultants[6]; }},    {"M12", [](const Out& o) { return o.resultants[7]; }},
-      {"IEM", [](const Out& o) { return o.membrane_energy; }}, {"IEB", [](const Out& o) { return o.bending_energy; }},
-      {"OFF", [](const Out& o) { return o.off; }},             {"EMIN", [](const Out& o) { return o.plastic_min; }},
-      {"EMAX", [](const Out& o) { return o.plastic_max; }},    {"THIC", [](const Out& o) { return o.thickness; }}};
+  static const std::map<std::string_view, ElementValue> table{{"F1", [](const Out& o) { return o.resultants[0]; }},
+                                                              {"F2", [](const Out& o) { return o.resultants[1]; }},
+                                                              {"F12", [](const Out& o) { return o.resultants[2]; }},
+                                                              {"Q1", [](const Out& o) { return o.resultants[3]; }},
+                                                              {"Q2", [](const Out& o) { return o.resultants[4]; }},
+                                                              {"M1", [](const Out& o) { return o.resultants[5]; }},
+                                                              {"M2", [](const Out& o) { return o.resultants[6]; }},
+                                                              {"M12", [](const Out& o) { return o.resultants[7]; }},
+                                                              {"IEM", [](const Out& o) { return o.membrane_energy; }},
+                                                              {"IEB", [](const Out& o) { return o.bending_energy; }},
+                                                              {"OFF", [](const Out& o) { return o.off; }},
+                                                              {"EMIN", [](const Out& o) { return o.plastic_min; }},
+                                                              {"EMAX", [](const Out& o) { return o.plastic_max; }},
+                                                              {"THIC", [](const Out& o) { return o.thickness; }}};
   return table;
 }
 
 const std::map<std::string_view, ElementValue>& brick_table() {
   using Out = elements::ElementOutput;
-  static const std::map<std::string_view, ElementValue> table{
-      {"OFF", [](const Out& o) { return o.off; }},       {"SX", [](const Out& o) { return o.stress[0]; }},
-      {"SY", [](const Out& o) { return o.stress[1]; }},  {"SZ", [](const Out& o) { return o.stress[2]; }},
-      {"SXY", [](const Out& o) { return o.stress[3]; }}, {"SYZ", [](const Out& o) { return o.stress[4]; }},
-      {"SXZ", [](const Out& o) { return o.stress[5]; }}, {"DENS", [](const Out& o) { return o.density; }},
-      {"VOL", [](const Out& o) { return o.volume; }},    {"PLAS", [](const Out& o) { return o.plastic_max; }},
-      {"BULK", [](const Out& o) { return o.bulk_viscosity; }}};
+  static const std::map<std::string_view, ElementValue> table{{"OFF", [](const Out& o) { return o.off; }},
+                                                              {"SX", [](const Out& o) { return o.stress[0]; }},
+                                                              {"SY", [](const Out& o) { return o.stress[1]; }},
+                                                              {"SZ", [](const Out& o) { return o.stress[2]; }},
+                                                              {"SXY", [](const Out& o) { return o.stress[3]; }},
+                                                              {"SYZ", [](const Out& o) { return o.stress[4]; }},
+                                                              {"SXZ", [](const Out& o) { return o.stress[5]; }},
+                                                              {"DENS", [](const Out& o) { return o.density; }},
+                                                              {"VOL", [](const Out& o) { return o.volume; }},
+                                                              {"PLAS", [](const Out& o) { return o.plastic_max; }},
+                                                              {"BULK", [](const Out& o) { return o.bulk_viscosity; }}};
   return table;
 }
 
@@ -113,9 +123,8 @@ Value element_value(const std::map<std::string_view, ElementValue>& table, std::
   const auto found = table.find(variable);
   if (found == table.end()) return {};
   if (!place.exists()) return [](const Snapshot&) { return 0.0; };
-  return [f = found->second, place](const Snapshot& s) {
-    return f(s.groups[static_cast<std::size_t>(place.group)]->output(place.element));
-  };
+  return
+      [f = found->second, place](const Snapshot& s) { return f(s.groups[static_cast<std::size_t>(place.group)]->output(place.element)); };
 }
 
 /// IE of a brick is an energy per initial volume (8.6): energy times initial density over mass.
@@ -164,7 +173,7 @@ const VectorTable<cycle::BodyResult>& vectors(const cycle::BodyResult*) {
 }
 
 template <typename Result>
-Value vector_value(std::string_view variable, std::span<const Result> Snapshot::* results, Index index) {
+Value vector_value(std::string_view variable, std::span<const Result> Snapshot::*results, Index index) {
   const auto parts = split_component(variable);
   if (!parts) return {};
   for (const auto& [name, member] : vectors(static_cast<const Result*>(nullptr))) {
@@ -179,8 +188,8 @@ Value vector_value(std::string_view variable, std::span<const Result> Snapshot::
 
 Value interface_value(std::string_view variable, Index index) {
   using R = cycle::InterfaceResult;
-  static const std::map<std::string_view, double R::*> scalars{{"CE", &R::ce},       {"FW", &R::fw},       {"DW", &R::dw},      {"CX", &R::cx},
-                                                               {"CE_ELAST", &R::ce}, {"CE_FRIC", &R::fw}, {"CE_DAMP", &R::dw}};
+  static const std::map<std::string_view, double R::*> scalars{
+      {"CE", &R::ce}, {"FW", &R::fw}, {"DW", &R::dw}, {"CX", &R::cx}, {"CE_ELAST", &R::ce}, {"CE_FRIC", &R::fw}, {"CE_DAMP", &R::dw}};
   const auto i = static_cast<std::size_t>(index);
   if (variable == "NC") return [i](const Snapshot& s) { return static_cast<double>(s.interfaces[i].in_contact); };
   if (const auto found = scalars.find(variable); found != scalars.end()) {
@@ -211,16 +220,26 @@ Value body_value(const model::Model& model, std::string_view variable, Index ind
 
 std::string_view kind_name(model::ThKind kind) {
   switch (kind) {
-    case model::ThKind::node: return "NODE";
-    case model::ThKind::part: return "PART";
-    case model::ThKind::shell: return "SHEL";
-    case model::ThKind::sh3n: return "SH3N";
-    case model::ThKind::brick: return "BRIC";
-    case model::ThKind::inter: return "INTER";
-    case model::ThKind::rwall: return "RWALL";
-    case model::ThKind::rbody: return "RBODY";
-    case model::ThKind::section: return "SECTIO";
-    case model::ThKind::accelerometer: return "ACCEL";
+    case model::ThKind::node:
+      return "NODE";
+    case model::ThKind::part:
+      return "PART";
+    case model::ThKind::shell:
+      return "SHEL";
+    case model::ThKind::sh3n:
+      return "SH3N";
+    case model::ThKind::brick:
+      return "BRIC";
+    case model::ThKind::inter:
+      return "INTER";
+    case model::ThKind::rwall:
+      return "RWALL";
+    case model::ThKind::rbody:
+      return "RBODY";
+    case model::ThKind::section:
+      return "SECTIO";
+    case model::ThKind::accelerometer:
+      return "ACCEL";
   }
   return "";
 }
@@ -232,11 +251,16 @@ const std::vector<std::string>& always_written(model::ThKind kind) {
   static const std::vector<std::string> body{"IFX", "IFY", "IFZ", "IMX", "IMY", "IMZ"};
   static const std::vector<std::string> none;
   switch (kind) {
-    case model::ThKind::inter: return inter;
-    case model::ThKind::rwall: return wall;
-    case model::ThKind::section: return section;
-    case model::ThKind::rbody: return body;
-    default: return none;
+    case model::ThKind::inter:
+      return inter;
+    case model::ThKind::rwall:
+      return wall;
+    case model::ThKind::section:
+      return section;
+    case model::ThKind::rbody:
+      return body;
+    default:
+      return none;
   }
 }
 
@@ -264,17 +288,17 @@ class Builder {
   void add_balance() {
     using B = state::Balance;
     static constexpr std::array<std::pair<std::string_view, double B::*>, 12> terms{{{"IE", &B::ie},
-                                                                                    {"HE", &B::he},
-                                                                                    {"KE", &B::ke},
-                                                                                    {"KER", &B::ker},
-                                                                                    {"CE", &B::ce},
-                                                                                    {"FW", &B::fw},
-                                                                                    {"DW", &B::dw},
-                                                                                    {"CX", &B::cx},
-                                                                                    {"EXTW", &B::extw},
-                                                                                    {"XE", &B::xe},
-                                                                                    {"ERR", &B::err},
-                                                                                    {"LEDGER", &B::ledger}}};
+                                                                                     {"HE", &B::he},
+                                                                                     {"KE", &B::ke},
+                                                                                     {"KER", &B::ker},
+                                                                                     {"CE", &B::ce},
+                                                                                     {"FW", &B::fw},
+                                                                                     {"DW", &B::dw},
+                                                                                     {"CX", &B::cx},
+                                                                                     {"EXTW", &B::extw},
+                                                                                     {"XE", &B::xe},
+                                                                                     {"ERR", &B::err},
+                                                                                     {"LEDGER", &B::ledger}}};
     for (const auto& [name, term] : terms) add(fmt::format("GLOBAL/{}", name), balance_term(term));
     for (int c = 0; c < 3; ++c) {
       add(fmt::format("GLOBAL/{}MOM", letters[static_cast<std::size_t>(c)]), [c](const Snapshot& s) { return s.balance->momentum[c]; });
@@ -309,18 +333,26 @@ class Builder {
   [[nodiscard]] Value value_of(const model::ThRequest& request, std::string_view variable) const {
     if (request.index == no_index) return {};
     switch (request.kind) {
-      case model::ThKind::node: return node_value(variable, request.index, request.skew);
-      case model::ThKind::part: return part_value(variable, request.index);
+      case model::ThKind::node:
+        return node_value(variable, request.index, request.skew);
+      case model::ThKind::part:
+        return part_value(variable, request.index);
       case model::ThKind::shell:
         return element_value(shell_table(), variable, lookup_.find(model::ElementKind::shell4, request.index));
       case model::ThKind::sh3n:
         return element_value(shell_table(), variable, lookup_.find(model::ElementKind::shell3, request.index));
-      case model::ThKind::brick: return brick_value(model_, variable, lookup_.find(model::ElementKind::brick, request.index));
-      case model::ThKind::inter: return interface_value(variable, request.index);
-      case model::ThKind::rwall: return vector_value(variable, &Snapshot::walls, request.index);
-      case model::ThKind::rbody: return body_value(model_, variable, request.index);
-      case model::ThKind::section: return section_value(variable, request.index);
-      case model::ThKind::accelerometer: return {};
+      case model::ThKind::brick:
+        return brick_value(model_, variable, lookup_.find(model::ElementKind::brick, request.index));
+      case model::ThKind::inter:
+        return interface_value(variable, request.index);
+      case model::ThKind::rwall:
+        return vector_value(variable, &Snapshot::walls, request.index);
+      case model::ThKind::rbody:
+        return body_value(model_, variable, request.index);
+      case model::ThKind::section:
+        return section_value(variable, request.index);
+      case model::ThKind::accelerometer:
+        return {};
     }
     return {};
   }

@@ -63,9 +63,11 @@ void Listing::cycle(const cycle::Snapshot& now) {
   const state::Balance& b = *now.balance;
   std::string text;
   if (lines_++ % lines_per_header == 0) text = columns;
-  fmt::format_to(std::back_inserter(text), "{:>10}  {:>12.6g}  {:>12.5g}  {:<6}{:>12}  {:>7.2f}  {:>10.4g}  {:>10.4g}  {:>10.4g}  {:>11.4g}  {:>9.3g}  {:>10.4g}  {:>10.3g}\n",
-                 now.state->times.cycle, now.state->times.t, now.state->times.h_plus, controller_name(now.controller.kind),
-                 now.controller.id, 100.0 * b.err, b.ie, b.ke, b.ker, b.ce + b.fw + b.dw, b.cx, b.extw, mass_error(b));
+  fmt::format_to(
+      std::back_inserter(text),
+      "{:>10}  {:>12.6g}  {:>12.5g}  {:<6}{:>12}  {:>7.2f}  {:>10.4g}  {:>10.4g}  {:>10.4g}  {:>11.4g}  {:>9.3g}  {:>10.4g}  {:>10.3g}\n",
+      now.state->times.cycle, now.state->times.t, now.state->times.h_plus, controller_name(now.controller.kind), now.controller.id,
+      100.0 * b.err, b.ie, b.ke, b.ker, b.ce + b.fw + b.dw, b.cx, b.extw, mass_error(b));
   file_.append(text);
 }
 
@@ -77,8 +79,9 @@ void Listing::end(const cycle::Outcome& outcome) {
       "Energies    internal {:.6g}, hourglass {:.6g}, kinetic {:.6g}, rotational {:.6g}, contact stored {:.6g}, friction {:.6g}, damping "
       "{:.6g}, contact made {:.6g}, external work {:.6g}\n",
       b.ie, b.he, b.ke, b.ker, b.ce, b.fw, b.dw, b.cx, b.extw);
-  text += fmt::format("Worst       energy error {:.3f} % at time {:.6g}, contact made {:.4g} at time {:.6g}\n", 100.0 * record_.worst_error().value,
-                      record_.worst_error().time, record_.worst_made().value, record_.worst_made().time);
+  text +=
+      fmt::format("Worst       energy error {:.3f} % at time {:.6g}, contact made {:.4g} at time {:.6g}\n",
+                  100.0 * record_.worst_error().value, record_.worst_error().time, record_.worst_made().value, record_.worst_made().time);
   if (!record_.hashes().empty()) {
     const RunRecord::Hash& last = record_.hashes().back();
     text += fmt::format("State hash  {:016x} at cycle {}\n", last.value, last.cycle);

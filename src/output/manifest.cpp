@@ -14,8 +14,9 @@ namespace abut::output {
 namespace {
 
 Json energies_json(const state::Balance& b) {
-  return {{"IE", b.ie}, {"HE", b.he}, {"KE", b.ke},     {"KER", b.ker}, {"CE", b.ce},           {"FW", b.fw},          {"DW", b.dw},
-          {"CX", b.cx}, {"XE", b.xe}, {"EXTW", b.extw}, {"ERR", b.err}, {"LEDGER", b.ledger}, {"initial", b.initial}, {"largest", b.largest}};
+  return {{"IE", b.ie},   {"HE", b.he},         {"KE", b.ke},           {"KER", b.ker},        {"CE", b.ce},
+          {"FW", b.fw},   {"DW", b.dw},         {"CX", b.cx},           {"XE", b.xe},          {"EXTW", b.extw},
+          {"ERR", b.err}, {"LEDGER", b.ledger}, {"initial", b.initial}, {"largest", b.largest}};
 }
 
 }  // namespace

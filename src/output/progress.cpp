@@ -43,9 +43,9 @@ void Progress::cycle(const cycle::Snapshot& now) {
   const double done = times.t - first_time_;
   const double left = done > 0.0 ? elapsed * (now.model->controls.t_end - times.t) / done : -1.0;
   const double rate = elapsed > 0.0 ? cycles * static_cast<double>(elements_) / elapsed : 0.0;
-  const std::string line = fmt::format("cycle {:>8}  time {:<11.5g} dt {:<10.4g} by {} {}  error {:.2f} %  {:.3g} element-cycles/s  {} left",
-                                       times.cycle, times.t, times.h_plus, controller_name(now.controller.kind), now.controller.id,
-                                       100.0 * now.balance->err, rate, duration(left));
+  const std::string line = fmt::format(
+      "cycle {:>8}  time {:<11.5g} dt {:<10.4g} by {} {}  error {:.2f} %  {:.3g} element-cycles/s  {} left", times.cycle, times.t,
+      times.h_plus, controller_name(now.controller.kind), now.controller.id, 100.0 * now.balance->err, rate, duration(left));
   write_(options_.terminal ? "\r" + line + "\x1b[K" : line + "\n");
   printed_ = true;
 }

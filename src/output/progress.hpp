@@ -11,15 +11,15 @@
 namespace abut::output {
 
 struct ProgressOptions {
-  bool terminal = false;     ///< rewrite one line in place; else a line per `listing_due`
-  double min_interval = 0.2; ///< seconds between two lines
+  bool terminal = false;      ///< rewrite one line in place; else a line per `listing_due`
+  double min_interval = 0.2;  ///< seconds between two lines
 };
 
 /// Cycle, time, dt, what controls it, energy error, rate and time left. On a terminal one line is rewritten in place; into
 /// a file or a pipe a line goes at each listing interval. Never more often than `min_interval`.
 class Progress final : public cycle::Sink {
  public:
-  using Clock = std::function<double()>;              ///< seconds, monotonic
+  using Clock = std::function<double()>;  ///< seconds, monotonic
   using Writer = std::function<void(std::string_view)>;
 
   Progress(ProgressOptions options, Writer write, Clock clock);

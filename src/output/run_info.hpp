@@ -10,10 +10,10 @@
 namespace abut::output {
 
 struct RunInfo {
-  std::string version;             ///< of abut
-  std::string commit;              ///< of the source, empty when unknown at build
+  std::string version;  ///< of abut
+  std::string commit;   ///< of the source, empty when unknown at build
   std::string compiler;
-  std::string instruction_set;     ///< "sse2", "avx2", "avx512"
+  std::string instruction_set;  ///< "sse2", "avx2", "avx512"
   int threads = 1;
   std::string profile = "standard";
   std::string interface_law;       ///< "stiffening", "constant"; empty: the profile's

@@ -9,8 +9,7 @@
 
 namespace abut::output {
 
-std::unique_ptr<SinkSet> open_run_outputs(const RunFolder& folder, const RunInfo& info,
-                                          std::function<std::vector<PhaseTime>()> timings) {
+std::unique_ptr<SinkSet> open_run_outputs(const RunFolder& folder, const RunInfo& info, std::function<std::vector<PhaseTime>()> timings) {
   create_folder(folder.directory);
   auto sinks = std::make_unique<SinkSet>();
   sinks->add(std::make_unique<Listing>(folder, info));

@@ -127,14 +127,22 @@ std::string_view interface_type(const model::Interface& interface) {
 std::string_view controller_name(cycle::StepController::Kind kind) {
   using Kind = cycle::StepController::Kind;
   switch (kind) {
-    case Kind::none: return "-";
-    case Kind::shell: return "SHELL";
-    case Kind::sh3n: return "SH3N";
-    case Kind::brick: return "BRICK";
-    case Kind::tetra: return "TETRA";
-    case Kind::node: return "NODE";
-    case Kind::interface: return "INTER";
-    case Kind::fixed: return "FIXED";
+    case Kind::none:
+      return "-";
+    case Kind::shell:
+      return "SHELL";
+    case Kind::sh3n:
+      return "SH3N";
+    case Kind::brick:
+      return "BRICK";
+    case Kind::tetra:
+      return "TETRA";
+    case Kind::node:
+      return "NODE";
+    case Kind::interface:
+      return "INTER";
+    case Kind::fixed:
+      return "FIXED";
   }
   return "-";
 }
@@ -142,10 +150,14 @@ std::string_view controller_name(cycle::StepController::Kind kind) {
 std::string_view outcome_name(cycle::Outcome::Kind kind) {
   using Kind = cycle::Outcome::Kind;
   switch (kind) {
-    case Kind::finished: return "finished";
-    case Kind::stopped: return "stopped";
-    case Kind::interrupted: return "interrupted";
-    case Kind::failed: return "failed";
+    case Kind::finished:
+      return "finished";
+    case Kind::stopped:
+      return "stopped";
+    case Kind::interrupted:
+      return "interrupted";
+    case Kind::failed:
+      return "failed";
   }
   return "failed";
 }
@@ -153,8 +165,8 @@ std::string_view outcome_name(cycle::Outcome::Kind kind) {
 std::string outcome_text(const cycle::Outcome& outcome) {
   using Kind = cycle::Outcome::Kind;
   const bool passive = outcome.kind == Kind::stopped || outcome.kind == Kind::interrupted;
-  return fmt::format("{}{} at time {:.8g} after {} cycles{}{}", passive ? "was " : "", outcome_name(outcome.kind), outcome.time, outcome.cycles,
-                     outcome.message.empty() ? "" : ": ", outcome.message);
+  return fmt::format("{}{} at time {:.8g} after {} cycles{}{}", passive ? "was " : "", outcome_name(outcome.kind), outcome.time,
+                     outcome.cycles, outcome.message.empty() ? "" : ": ", outcome.message);
 }
 
 Index element_count(const model::Model& model) {

@@ -23,7 +23,8 @@ ABUT_INLINE Pair load_pair(const double* p) {
   return a;
 }
 
-/// Vectors of `array` whose first doubles stand at `offset[0..W)` (three times the node's index: the multiplication is done once, at set-up).
+/// Vectors of `array` whose first doubles stand at `offset[0..W)` (three times the node's index: the multiplication is done once, at
+/// set-up).
 ABUT_INLINE Triple<double> gather3(const double* array, const std::int32_t* offset, double /*type*/) {
   const double* p = array + offset[0];
   return {p[0], p[1], p[2]};

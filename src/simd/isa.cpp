@@ -10,9 +10,12 @@ namespace {
 
 bool has(Isa isa) {
   switch (isa) {
-    case Isa::sse2: return true;
-    case Isa::avx2: return __builtin_cpu_supports("avx2") != 0;
-    case Isa::avx512: return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
+    case Isa::sse2:
+      return true;
+    case Isa::avx2:
+      return __builtin_cpu_supports("avx2") != 0;
+    case Isa::avx512:
+      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
   }
   return false;
 }
@@ -34,9 +37,12 @@ Isa choose() {
 
 std::string_view name(Isa isa) {
   switch (isa) {
-    case Isa::sse2: return "sse2";
-    case Isa::avx2: return "avx2";
-    case Isa::avx512: return "avx512";
+    case Isa::sse2:
+      return "sse2";
+    case Isa::avx2:
+      return "avx2";
+    case Isa::avx512:
+      return "avx512";
   }
   return "?";
 }

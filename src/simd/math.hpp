@@ -48,10 +48,10 @@ ABUT_INLINE Pack<W> from_bits(Pack<W> /*type*/, typename BitsOf<Pack<W>>::type u
 
 namespace math {
 
-inline constexpr double ln2_high = 0x1.62e42fefa38p-1;        // 42 bits: its product with an exponent is exact
-inline constexpr double ln2_low = 0x1.ef35793c7673p-45;       // ln 2 - ln2_high
+inline constexpr double ln2_high = 0x1.62e42fefa38p-1;   // 42 bits: its product with an exponent is exact
+inline constexpr double ln2_low = 0x1.ef35793c7673p-45;  // ln 2 - ln2_high
 inline constexpr double inverse_ln2 = 0x1.71547652b82fep+0;
-inline constexpr double round_magic = 0x1.8p52;               // adding and subtracting it rounds to an integer
+inline constexpr double round_magic = 0x1.8p52;  // adding and subtracting it rounds to an integer
 inline constexpr double infinity = __builtin_huge_val();
 
 /// A value and its rounding error.
@@ -91,8 +91,7 @@ ABUT_INLINE Two<T> log_two(T x) {
   // x = 2^k m with m in [sqrt(1/2), sqrt(2))
   const std::uint64_t root_half = 0x3fe6a09e667f3bcdULL;
   const auto shifted = to_bits(x) + (std::uint64_t{0x3ff0000000000000ULL} - root_half);
-  const T k = from_bits(T(0.0), (shifted >> std::uint64_t{52}) | std::uint64_t{0x4330000000000000ULL}) -
-              T(0x1p52 + 1023.0);
+  const T k = from_bits(T(0.0), (shifted >> std::uint64_t{52}) | std::uint64_t{0x4330000000000000ULL}) - T(0x1p52 + 1023.0);
   const T m = from_bits(T(0.0), (shifted & std::uint64_t{0x000fffffffffffffULL}) + root_half);
   const T f = m - T(1.0);
   const Two<T> d = two_sum(m, T(1.0));
@@ -138,8 +137,7 @@ ABUT_INLINE T exp_two(T x, T tail) {
   p = p * r + T(0.5);
   const T e = T(1.0) + (r + r * r * p);
   // 2^(k-1), then doubled: k may be 1024.
-  const T half_scale =
-      from_bits(T(0.0), (to_bits(shifted) << std::uint64_t{52}) + std::uint64_t{0x3fe0000000000000ULL});
+  const T half_scale = from_bits(T(0.0), (to_bits(shifted) << std::uint64_t{52}) + std::uint64_t{0x3fe0000000000000ULL});
   const T y = (e * half_scale) * T(2.0);
   return select(x < lowest, T(0.0), select(x > highest, T(infinity), y));
 }

@@ -56,9 +56,18 @@ struct Pack {
   [[gnu::always_inline]] friend inline Pack operator*(Pack a, Pack b) { return Pack(a.r * b.r); }
   [[gnu::always_inline]] friend inline Pack operator/(Pack a, Pack b) { return Pack(a.r / b.r); }
   [[gnu::always_inline]] friend inline Pack operator-(Pack a) { return Pack(-a.r); }
-  [[gnu::always_inline]] inline Pack& operator+=(Pack b) { r += b.r; return *this; }
-  [[gnu::always_inline]] inline Pack& operator-=(Pack b) { r -= b.r; return *this; }
-  [[gnu::always_inline]] inline Pack& operator*=(Pack b) { r *= b.r; return *this; }
+  [[gnu::always_inline]] inline Pack& operator+=(Pack b) {
+    r += b.r;
+    return *this;
+  }
+  [[gnu::always_inline]] inline Pack& operator-=(Pack b) {
+    r -= b.r;
+    return *this;
+  }
+  [[gnu::always_inline]] inline Pack& operator*=(Pack b) {
+    r *= b.r;
+    return *this;
+  }
   [[gnu::always_inline]] friend inline Mask<W> operator<(Pack a, Pack b) { return {a.r < b.r}; }
   [[gnu::always_inline]] friend inline Mask<W> operator<=(Pack a, Pack b) { return {a.r <= b.r}; }
   [[gnu::always_inline]] friend inline Mask<W> operator>(Pack a, Pack b) { return {a.r > b.r}; }
@@ -66,15 +75,23 @@ struct Pack {
 };
 
 template <int W>
-ABUT_INLINE Mask<W> operator&(Mask<W> a, Mask<W> b) { return {a.m & b.m}; }
+ABUT_INLINE Mask<W> operator&(Mask<W> a, Mask<W> b) {
+  return {a.m & b.m};
+}
 template <int W>
-ABUT_INLINE Mask<W> operator|(Mask<W> a, Mask<W> b) { return {a.m | b.m}; }
+ABUT_INLINE Mask<W> operator|(Mask<W> a, Mask<W> b) {
+  return {a.m | b.m};
+}
 template <int W>
-ABUT_INLINE Mask<W> operator!(Mask<W> a) { return {~a.m}; }
+ABUT_INLINE Mask<W> operator!(Mask<W> a) {
+  return {~a.m};
+}
 
 /// c ? a : b, lane by lane.
 template <int W>
-ABUT_INLINE Pack<W> select(Mask<W> c, Pack<W> a, Pack<W> b) { return Pack<W>(c.m ? a.r : b.r); }
+ABUT_INLINE Pack<W> select(Mask<W> c, Pack<W> a, Pack<W> b) {
+  return Pack<W>(c.m ? a.r : b.r);
+}
 template <int W>
 ABUT_INLINE bool any(Mask<W> a) {
   std::int64_t s = 0;
@@ -106,11 +123,17 @@ ABUT_INLINE Pack<W> sqrt(Pack<W> a) {
   return b;
 }
 template <int W>
-ABUT_INLINE Pack<W> max(Pack<W> a, Pack<W> b) { return select(a < b, b, a); }
+ABUT_INLINE Pack<W> max(Pack<W> a, Pack<W> b) {
+  return select(a < b, b, a);
+}
 template <int W>
-ABUT_INLINE Pack<W> min(Pack<W> a, Pack<W> b) { return select(b < a, b, a); }
+ABUT_INLINE Pack<W> min(Pack<W> a, Pack<W> b) {
+  return select(b < a, b, a);
+}
 template <int W>
-ABUT_INLINE Pack<W> abs(Pack<W> a) { return select(a < Pack<W>(0.0), -a, a); }
+ABUT_INLINE Pack<W> abs(Pack<W> a) {
+  return select(a < Pack<W>(0.0), -a, a);
+}
 
 template <int W>
 ABUT_INLINE Pack<W> load(const double* p) {
@@ -119,7 +142,9 @@ ABUT_INLINE Pack<W> load(const double* p) {
   return a;
 }
 template <int W>
-ABUT_INLINE void store(double* p, Pack<W> a) { __builtin_memcpy(p, &a.r, sizeof(a.r)); }
+ABUT_INLINE void store(double* p, Pack<W> a) {
+  __builtin_memcpy(p, &a.r, sizeof(a.r));
+}
 
 // The same vocabulary for plain doubles.
 ABUT_INLINE double select(bool c, double a, double b) { return c ? a : b; }

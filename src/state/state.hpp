@@ -12,28 +12,28 @@ namespace abut::state {
 /// Times of numerics.md 0.2: h_minus ended at t^n, h_plus begins there.
 struct StepTimes {
   std::int64_t cycle = 0;
-  double t = 0.0;            ///< t^n
-  double h_minus = 0.0;      ///< 0 in cycle 0
-  double h_plus = 0.0;       ///< known after the step is chosen
-  double h_bar = 0.0;        ///< (h_minus + h_plus) / 2
-  double h_bar_old = 0.0;    ///< of the previous cycle, 0 in cycle 0
+  double t = 0.0;          ///< t^n
+  double h_minus = 0.0;    ///< 0 in cycle 0
+  double h_plus = 0.0;     ///< known after the step is chosen
+  double h_bar = 0.0;      ///< (h_minus + h_plus) / 2
+  double h_bar_old = 0.0;  ///< of the previous cycle, 0 in cycle 0
 };
 
 /// Nodal arrays, all #N (by 3), index = model node index.
 struct State {
   StepTimes times;
-  std::vector<Vec3> x;       ///< position t^n
-  std::vector<Vec3> u;       ///< displacement t^n
-  std::vector<Vec3> v;       ///< velocity n - 1/2
-  std::vector<Vec3> w;       ///< angular velocity n - 1/2
-  std::vector<Vec3> a;       ///< acceleration t^n
-  std::vector<Vec3> alpha;   ///< angular acceleration t^n
-  std::vector<Vec3> f;       ///< total force of the cycle
-  std::vector<Vec3> m;       ///< total moment of the cycle
-  std::vector<Vec3> f_internal, m_internal;  ///< sum of element slots (to be subtracted)
-  std::vector<Vec3> f_external, m_external;  ///< concentrated and pressure loads
-  std::vector<Vec3> f_contact;               ///< all interfaces
-  std::vector<double> mass, inertia;         ///< current (scaling included)
+  std::vector<Vec3> x;                                  ///< position t^n
+  std::vector<Vec3> u;                                  ///< displacement t^n
+  std::vector<Vec3> v;                                  ///< velocity n - 1/2
+  std::vector<Vec3> w;                                  ///< angular velocity n - 1/2
+  std::vector<Vec3> a;                                  ///< acceleration t^n
+  std::vector<Vec3> alpha;                              ///< angular acceleration t^n
+  std::vector<Vec3> f;                                  ///< total force of the cycle
+  std::vector<Vec3> m;                                  ///< total moment of the cycle
+  std::vector<Vec3> f_internal, m_internal;             ///< sum of element slots (to be subtracted)
+  std::vector<Vec3> f_external, m_external;             ///< concentrated and pressure loads
+  std::vector<Vec3> f_contact;                          ///< all interfaces
+  std::vector<double> mass, inertia;                    ///< current (scaling included)
   std::vector<double> stiffness, rotational_stiffness;  ///< nodal sums of the cycle
 
   /// Zero state of n nodes.
@@ -46,10 +46,10 @@ struct Balance {
   double ie = 0.0, he = 0.0, ke = 0.0, ker = 0.0;
   double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;  ///< interfaces: stored, friction, damping, made or lost
   double extw = 0.0, xe = 0.0;
-  double initial = 0.0;   ///< sum of the terms at the start
-  double largest = 0.0;   ///< largest term so far
-  double err = 0.0;       ///< GLOBAL/ERR
-  double ledger = 0.0;    ///< GLOBAL/LEDGER
+  double initial = 0.0;  ///< sum of the terms at the start
+  double largest = 0.0;  ///< largest term so far
+  double err = 0.0;      ///< GLOBAL/ERR
+  double ledger = 0.0;   ///< GLOBAL/LEDGER
   Vec3 momentum;
   double mass = 0.0, added_mass = 0.0;
 };

@@ -5,7 +5,6 @@
 #include <abut/contact/interface.hpp>
 #include <abut/contact/options.hpp>
 #include <abut/contact/surface.hpp>
-
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -18,9 +17,7 @@ namespace contact = abut::contact;
 /// Two unit squares that face each other at distance `clearance`; the nodes of the upper one come last.
 std::vector<Vec3> squares(double clearance) {
   std::vector<Vec3> x;
-  for (const double z : {0.0, clearance}) {
-    x.insert(x.end(), {{0.0, 0.0, z}, {1.0, 0.0, z}, {1.0, 1.0, z}, {0.0, 1.0, z}});
-  }
+  for (const double z : {0.0, clearance}) { x.insert(x.end(), {{0.0, 0.0, z}, {1.0, 0.0, z}, {1.0, 1.0, z}, {0.0, 1.0, z}}); }
   return x;
 }
 

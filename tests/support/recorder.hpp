@@ -14,8 +14,8 @@ struct Sample {
   state::Balance balance;
   std::vector<cycle::InterfaceResult> interfaces;
   std::vector<cycle::WallResult> walls;
-  std::vector<double> part_internal;   ///< per part
-  std::vector<Vec3> u, v;              ///< of the watched nodes: displacement t^n, velocity n - 1/2
+  std::vector<double> part_internal;  ///< per part
+  std::vector<Vec3> u, v;             ///< of the watched nodes: displacement t^n, velocity n - 1/2
 };
 
 class Recorder final : public cycle::Sink {

@@ -166,8 +166,7 @@ void Scene::velocity(const std::vector<Index>& nodes, const Vec3& v) {
 }
 
 void Scene::fix(const std::vector<Index>& nodes, std::array<bool, 3> translation, std::array<bool, 3> rotation) {
-  model.boundary_conditions.push_back(
-      {static_cast<Id>(model.boundary_conditions.size()) + 1, translation, rotation, no_index, nodes});
+  model.boundary_conditions.push_back({static_cast<Id>(model.boundary_conditions.size()) + 1, translation, rotation, no_index, nodes});
 }
 
 Index Scene::function(std::vector<double> x, std::vector<double> y) {
@@ -206,7 +205,8 @@ Index Scene::contact(Index surface_1, Index surface_2, double stfac, double fric
 }
 
 void Scene::history_node(Index node) {
-  model.th_requests.push_back({model::ThKind::node, model.node_id[static_cast<std::size_t>(node)], node, no_index, "", {"DX", "DY", "DZ", "VX", "VY", "VZ"}});
+  model.th_requests.push_back(
+      {model::ThKind::node, model.node_id[static_cast<std::size_t>(node)], node, no_index, "", {"DX", "DY", "DZ", "VX", "VY", "VZ"}});
 }
 
 void Scene::end(double time, double history_interval, double step_scale) {

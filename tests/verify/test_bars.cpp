@@ -23,9 +23,9 @@ struct Impact {
   double start = -1.0, end = -1.0;  // first and last time with contact
   double impulse = 0.0, peak = 0.0;
   double worst_error_free = 0.0, worst_error_contact = 0.0;
-  double made = 0.0;                // |CX| at the end over the largest term
+  double made = 0.0;  // |CX| at the end over the largest term
   Vec3 momentum_first, momentum_last;
-  double exit_speed = 0.0;          // mean z velocity of the first block at the end
+  double exit_speed = 0.0;  // mean z velocity of the first block at the end
 };
 
 struct BarCase {

@@ -115,7 +115,8 @@ Pushed push(double factor) {
   std::size_t half = 0;
   while (recorder.samples[half].time < 0.5 * (pushed + end)) ++half;
   out.way = mean_x(recorder, last, false);
-  out.acceleration = (mean_x(recorder, last, true) - mean_x(recorder, half, true)) / (recorder.samples[last].time - recorder.samples[half].time);
+  out.acceleration =
+      (mean_x(recorder, last, true) - mean_x(recorder, half, true)) / (recorder.samples[last].time - recorder.samples[half].time);
   out.friction_work = recorder.samples[last].balance.fw;
   // Penetration under N is N / sum K, the elastic slip under F is F / (0.1 sum K): ten times F/N of the penetration.
   double sink = 0.0;

@@ -27,21 +27,21 @@ class InterfaceModel;  // internal
 
 /// What changes about a surface: spans of #F values, copied when set.
 struct SurfaceState {
-  std::span<const double> stiffness;         ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
-  std::span<const double> thickness;         ///< shell thickness per facet; empty: none
-  std::span<const std::uint8_t> active;      ///< 0: eroded facet; empty: all active
+  std::span<const double> stiffness;     ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
+  std::span<const double> thickness;     ///< shell thickness per facet; empty: none
+  std::span<const std::uint8_t> active;  ///< 0: eroded facet; empty: all active
 };
 
 /// Host arrays at t^n. Lengths #N of the host.
 struct HostState {
-  std::span<const Vec3> x;                 ///< positions at t^n
-  std::span<const Vec3> v;                 ///< velocities at n - 1/2
+  std::span<const Vec3> x;  ///< positions at t^n
+  std::span<const Vec3> v;  ///< velocities at n - 1/2
   /// Nodal masses, 0 for a node that cannot move (clamped, imposed motion): first and last contact forces are predicted with them
   /// (and TYPE7 damps with them). Empty: speeds count as constant over a step, which costs accuracy in CX only.
   std::span<const double> mass;
-  double time = 0.0;                       ///< t^n
-  double dt = 0.0;                         ///< h_-, the step that ended at t^n (0 in the first cycle)
-  double dt_bar_old = 0.0;                 ///< (h_- + the one before)/2 (reference impulses, incremental friction)
+  double time = 0.0;        ///< t^n
+  double dt = 0.0;          ///< h_-, the step that ended at t^n (0 in the first cycle)
+  double dt_bar_old = 0.0;  ///< (h_- + the one before)/2 (reference impulses, incremental friction)
 };
 
 class Interface {
@@ -51,8 +51,7 @@ class Interface {
   /// TYPE5: the nodes are held against the surface, one pass. `node_stiffness` #nodes: their own stiffness
   /// (sum of a quarter per facet around them); used in series unless rules.one_pass_half_stiffness. Empty: half of the
   /// facet's stiffness is taken. Their order is the order of sums: sort them by key.
-  static Interface nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface,
-                                    const Options& options);
+  static Interface nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options);
 
   /// TYPE7: every node-facet pair within the gap repels, on both sides. The surface is side 1.
   /// @throws std::invalid_argument without a gap or with arrays of a wrong length

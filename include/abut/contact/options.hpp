@@ -39,36 +39,34 @@ struct Rules {
   bool limits_step = true;
 
   [[nodiscard]] static Rules standard() { return {}; }
-  [[nodiscard]] static Rules reference() {
-    return {Law::constant, Edges::plain, true, true, true, true, false, true, false};
-  }
+  [[nodiscard]] static Rules reference() { return {Law::constant, Edges::plain, true, true, true, true, false, true, false}; }
 };
 
 /// Options of a one-sided interface (TYPE3: two passes, TYPE5: one).
 struct Options {
-  double stiffness_scale = 0.2;  ///< s (T14); must be > 0
-  double friction = 0.0;         ///< Coulomb coefficient (T19); >= 0
-  double tangential_ratio = 0.1; ///< K_t / K_n (T21)
-  double gap = 0.0;              ///< length (T25..T28); >= 0
-  double birth = 0.0;            ///< time from which the interface acts
-  double death = 1e30;           ///< time after which it does not
-  double shear_limit = 1e30;     ///< Ptlim: largest friction stress; > 0
-  double depth_limit = 0.0;      ///< how far behind a facet a node is still held when first met; 0: from facet size
+  double stiffness_scale = 0.2;   ///< s (T14); must be > 0
+  double friction = 0.0;          ///< Coulomb coefficient (T19); >= 0
+  double tangential_ratio = 0.1;  ///< K_t / K_n (T21)
+  double gap = 0.0;               ///< length (T25..T28); >= 0
+  double birth = 0.0;             ///< time from which the interface acts
+  double death = 1e30;            ///< time after which it does not
+  double shear_limit = 1e30;      ///< Ptlim: largest friction stress; > 0
+  double depth_limit = 0.0;       ///< how far behind a facet a node is still held when first met; 0: from facet size
   Rules rules;
 };
 
 /// What an interface says after evaluate(). Energies are cumulative since the start, in the host's unit of work.
 struct StepResult {
-  double elastic = 0.0;         ///< CE: stored now in normal springs and elastic stick
-  double friction_work = 0.0;   ///< FW: dissipated by slip, never decreases
-  double damping_work = 0.0;    ///< DW
+  double elastic = 0.0;        ///< CE: stored now in normal springs and elastic stick
+  double friction_work = 0.0;  ///< FW: dissipated by slip, never decreases
+  double damping_work = 0.0;   ///< DW
   /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW: energy made (> 0) or lost by the numerics
   double made = 0.0;
-  Vec3 normal_force;            ///< on the second (main) surface
+  Vec3 normal_force;  ///< on the second (main) surface
   Vec3 tangential_force;
-  Index in_contact = 0;         ///< held nodes with P > 0, both passes
+  Index in_contact = 0;  ///< held nodes with P > 0, both passes
   double largest_penetration = 0.0;
-  Index crossed = 0;            ///< nodes that the swept test caught in this step: they would have jumped through
+  Index crossed = 0;              ///< nodes that the swept test caught in this step: they would have jumped through
   double largest_approach = 0.0;  ///< normal approach in the last step, in units of gap (gap > 0)
   /// Upper limit of the coming step from kinematics (gap - P against closing speed); 1e30: none.
   double kinematic_step = 1e30;

@@ -28,8 +28,8 @@ class Surface {
   ///         node, or appears twice
   explicit Surface(std::vector<Facet> facets, std::span<const Id> node_key = {});
 
-  [[nodiscard]] std::span<const Facet> facets() const { return facets_; }              ///< #F, as given
-  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }                ///< #S host nodes, by key, distinct
+  [[nodiscard]] std::span<const Facet> facets() const { return facets_; }  ///< #F, as given
+  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }    ///< #S host nodes, by key, distinct
   /// Facets by surface-local node numbers (positions in nodes()).
   [[nodiscard]] std::span<const std::array<Index, 4>> local() const { return local_; }
   /// Facets at surface node s (each once), ascending.

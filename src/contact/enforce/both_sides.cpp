@@ -25,10 +25,9 @@ BothSidesOptions checked(BothSidesOptions o) {
 }  // namespace
 
 BothSides::BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions options)
-    : options_(checked(std::move(options))),
-      held_(nodes, std::vector<double>(nodes.size(), 1.0)),
-      surface_(std::move(surface), true) {
-  if (!options_.node_gap.empty() && options_.node_gap.size() != nodes.size()) throw std::invalid_argument("node_gap: one value per held node");
+    : options_(checked(std::move(options))), held_(nodes, std::vector<double>(nodes.size(), 1.0)), surface_(std::move(surface), true) {
+  if (!options_.node_gap.empty() && options_.node_gap.size() != nodes.size())
+    throw std::invalid_argument("node_gap: one value per held node");
   if (!options_.facet_gap.empty() && static_cast<Index>(options_.facet_gap.size()) != surface_.facet_count()) {
     throw std::invalid_argument("facet_gap: one value per facet");
   }
@@ -64,7 +63,8 @@ void BothSides::search(const HostState& host) {
   held_.gather(host.x);
   surface_.gather(host.x);
   if (!acts(host)) return;
-  candidates_.update(held_, surface_, [this](Index node) { return reach(node); }, 0.5 * options_.gap, !started_);
+  candidates_.update(
+      held_, surface_, [this](Index node) { return reach(node); }, 0.5 * options_.gap, !started_);
 }
 
 double BothSides::offset_of(const Pair& old, double gap, double p) const {
@@ -84,7 +84,8 @@ void BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   double gap = pair_gap(node, facet);
   const BothSidesContact c = both_sides_contact(held_.x()[at(node)], x, triangle, gap);
   if (c.penetration <= 0.0) return;
-  if (gap - c.penetration < exhausted * gap || (!started_ && options_.largest_penetration > 0.0 && c.penetration > options_.largest_penetration * gap)) {
+  if (gap - c.penetration < exhausted * gap ||
+      (!started_ && options_.largest_penetration > 0.0 && c.penetration > options_.largest_penetration * gap)) {
     gone_[at(node)] = 1;
     return;
   }
@@ -175,7 +176,8 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
       std::sort(facets.begin(), facets.end());
       const std::size_t before = pairs_.size();
       for (const Index facet : facets) {
-        while (next < previous_.size() && (previous_[next].node < node || (previous_[next].node == node && previous_[next].facet < facet))) ++next;
+        while (next < previous_.size() && (previous_[next].node < node || (previous_[next].node == node && previous_[next].facet < facet)))
+          ++next;
         const bool known = next < previous_.size() && previous_[next].node == node && previous_[next].facet == facet;
         add_pair(host, node, facet, known ? previous_[next] : Pair{node, facet, 0.0, {}}, stiffness, result, sums);
       }

@@ -40,7 +40,8 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] double pair_gap(Index node, Index facet) const;
   [[nodiscard]] double reach(Index node) const;
   [[nodiscard]] bool acts(const HostState& host) const { return host.time >= options_.birth && host.time <= options_.death; }
-  void add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result, Sums& sums);
+  void add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
+                Sums& sums);
   [[nodiscard]] double offset_of(const Pair& old, double gap, double penetration) const;
   void speed_limit(const HostState& host, StepResult& result) const;
   [[nodiscard]] double discrete_work(const HostState& host);
@@ -48,11 +49,11 @@ class BothSides final : public InterfaceModel {
   BothSidesOptions options_;
   Side held_, surface_;
   Candidates candidates_;
-  std::vector<Index> own_;                       // host nodes of the interface, each once, by key order of the sides
-  std::vector<Index> held_own_, surface_own_;    // side-local -> own
-  std::vector<Pair> pairs_, previous_;           // by node, then facet
+  std::vector<Index> own_;                                     // host nodes of the interface, each once, by key order of the sides
+  std::vector<Index> held_own_, surface_own_;                  // side-local -> own
+  std::vector<Pair> pairs_, previous_;                         // by node, then facet
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
-  std::vector<std::uint8_t> gone_;               // #held: left the interface for good
+  std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
   std::vector<Index> in_contact_, scratch_;
   bool started_ = false;
   double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0;

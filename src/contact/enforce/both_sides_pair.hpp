@@ -17,9 +17,9 @@ namespace abut::contact {
 
 /// Where and how deep a node is in the gap of a facet.
 struct BothSidesContact {
-  double penetration = 0.0;          ///< p; 0: out of reach
-  Vec3 normal;                       ///< unit, from the facet to the node
-  std::array<double, 4> weight{};    ///< H_k of the corners (0 for the fourth of a triangle)
+  double penetration = 0.0;        ///< p; 0: out of reach
+  Vec3 normal;                     ///< unit, from the facet to the node
+  std::array<double, 4> weight{};  ///< H_k of the corners (0 for the fourth of a triangle)
 };
 
 /// @param corners  4 positions; the fourth is unused for a triangle
@@ -30,11 +30,11 @@ struct BothSidesContact {
 
 /// Normal force and what goes with it.
 struct BothSidesForce {
-  double elastic = 0.0;    ///< f_n
-  double energy = 0.0;     ///< E
-  double damping = 0.0;    ///< c_d
-  double critical = 0.0;   ///< C, for the viscous friction limit
-  double tangent = 0.0;    ///< K0 (g/(g - p))^2
+  double elastic = 0.0;   ///< f_n
+  double energy = 0.0;    ///< E
+  double damping = 0.0;   ///< c_d
+  double critical = 0.0;  ///< C, for the viscous friction limit
+  double tangent = 0.0;   ///< K0 (g/(g - p))^2
 };
 
 /// @pre 0 < p < g

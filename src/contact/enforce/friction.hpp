@@ -15,8 +15,8 @@
 namespace abut::contact {
 
 struct SlipResult {
-  Vec3 elastic;              ///< e'
-  double dissipated = 0.0;   ///< D >= 0
+  Vec3 elastic;             ///< e'
+  double dissipated = 0.0;  ///< D >= 0
   bool slips = false;
 };
 

@@ -14,7 +14,8 @@ Interface Interface::two_surfaces(Surface first, Surface second, const Options& 
   return Interface(std::make_unique<OneSided>(std::move(first), std::move(second), options));
 }
 
-Interface Interface::nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options) {
+Interface Interface::nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface,
+                                      const Options& options) {
   return Interface(std::make_unique<OneSided>(std::move(nodes), std::move(node_stiffness), std::move(surface), options));
 }
 

@@ -39,7 +39,8 @@ OneSided::OneSided(Surface first, Surface second, const Options& options) : opti
     if (++count <= 20) shared += (count > 1 ? ", " : "") + std::to_string(n);
   }
   if (count > 0) {
-    throw std::invalid_argument("contact: " + std::to_string(count) + " nodes lie on both surfaces: " + shared + (count > 20 ? ", ..." : ""));
+    throw std::invalid_argument("contact: " + std::to_string(count) + " nodes lie on both surfaces: " + shared +
+                                (count > 20 ? ", ..." : ""));
   }
   side_ = {Side(std::move(first), canonical(options)), Side(std::move(second), canonical(options))};
   pass_.emplace_back(options, false, at(side_[0].node_count()));

@@ -19,11 +19,11 @@ namespace abut::contact {
 
 struct PairForce {
   Vec3 on_node;
-  std::array<Vec3, 4> on_facet;    ///< by corner; a triangle's fourth is zero
-  double magnitude = 0.0;          ///< kappa phi'(P) = |normal force|
-  double potential = 0.0;          ///< Psi
-  double stiffness = 0.0;          ///< kappa
-  double extra_tangent = 0.0;      ///< bound of the tangent terms beyond kappa phi''
+  std::array<Vec3, 4> on_facet;  ///< by corner; a triangle's fourth is zero
+  double magnitude = 0.0;        ///< kappa phi'(P) = |normal force|
+  double potential = 0.0;        ///< Psi
+  double stiffness = 0.0;        ///< kappa
+  double extra_tangent = 0.0;    ///< bound of the tangent terms beyond kappa phi''
 };
 
 /// @param scale, node_stiffness  s and K2

@@ -10,8 +10,8 @@
 namespace abut::contact {
 namespace {
 
-constexpr Index group = 128;          // nodes handled together (numerics.md 7.3.1)
-constexpr double step_growth = 1.2;   // the coming step may be longer than the last one
+constexpr Index group = 128;         // nodes handled together (numerics.md 7.3.1)
+constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
 
 Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   Patch patch = side.patch(f);
@@ -23,13 +23,15 @@ Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
 }  // namespace
 
 void SideLoads::resize(std::size_t nodes) {
-  for (std::vector<Vec3>* v : {&own_normal, &own_tangential, &reaction_normal, &reaction_tangential, &force_before, &x_before}) v->resize(nodes);
+  for (std::vector<Vec3>* v : {&own_normal, &own_tangential, &reaction_normal, &reaction_tangential, &force_before, &x_before})
+    v->resize(nodes);
   own_stiffness.resize(nodes);
   reaction_stiffness.resize(nodes);
 }
 
 void SideLoads::clear() {
-  for (std::vector<Vec3>* v : {&own_normal, &own_tangential, &reaction_normal, &reaction_tangential}) std::fill(v->begin(), v->end(), Vec3{});
+  for (std::vector<Vec3>* v : {&own_normal, &own_tangential, &reaction_normal, &reaction_tangential})
+    std::fill(v->begin(), v->end(), Vec3{});
   std::fill(own_stiffness.begin(), own_stiffness.end(), 0.0);
   std::fill(reaction_stiffness.begin(), reaction_stiffness.end(), 0.0);
 }
@@ -149,7 +151,8 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     }
   }
   Measure m;
-  if (was_held || !candidates_.of(i).empty()) m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal} : HeldBy{});
+  if (was_held || !candidates_.of(i).empty())
+    m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal} : HeldBy{});
   const auto take = [&](const Measure& measure) {
     touch.facet = measure.facet;
     touch.known = true;
@@ -210,7 +213,9 @@ void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& 
   const double k1 = surface.facet_stiffness(t.facet);
   const double k2 = held.node_stiffness(i);
   PairForce& pair = touch.pair;
-  pair.stiffness = half_of_facet_ ? 0.5 * options_.stiffness_scale * k1 : k1 + k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2) : 0.0;
+  pair.stiffness = half_of_facet_  ? 0.5 * options_.stiffness_scale * k1
+                   : k1 + k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2)
+                                   : 0.0;
   if (penetration <= 0.0) return;
   const bool too_deep = !options_.rules.unlimited_depth && state_[at(i)].held == 0 && -p.distance > depth_[at(t.facet)];
   if (too_deep) return;
@@ -255,7 +260,9 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   candidates_.near(path, options_.gap + 2.0 * surface_step_, [&](Index f) {
     const double k1 = surface.facet_stiffness(f);
     const double k2 = held.node_stiffness(i);
-    const double pair = half_of_facet_ ? 0.5 * options_.stiffness_scale * k1 : k1 + k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2) : 0.0;
+    const double pair = half_of_facet_  ? 0.5 * options_.stiffness_scale * k1
+                        : k1 + k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2)
+                                        : 0.0;
     largest = std::max(largest, pair);
   });
   held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
@@ -322,9 +329,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double normal_force = factor * touch.pair.magnitude;
   const Vec3 on_node = factor * touch.pair.on_node;
   held_loads.own_normal[at(i)] = on_node;
-  for (std::size_t k = 0; k < 4; ++k) {
-    surface_loads.reaction_normal[at(corner[k])] += factor * touch.pair.on_facet[k];
-  }
+  for (std::size_t k = 0; k < 4; ++k) { surface_loads.reaction_normal[at(corner[k])] += factor * touch.pair.on_facet[k]; }
   totals.normal += on_node;
 
   after.held = 1;
@@ -377,9 +382,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
       after.acceleration = 0.0;
       if (!anchors || any) {
         // The limit falls to zero: what was stored slips away.
-        if (before.tangential_stiffness > 0.0) {
-          totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
-        }
+        if (before.tangential_stiffness > 0.0) { totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness; }
         after.anchored = 0;
         after.slip = {};
         after.friction = {};

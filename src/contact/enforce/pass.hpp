@@ -38,20 +38,20 @@ struct SurfacePoint {
 
 /// What a held node remembers from step to step (no padding: it is written to the history as it is).
 struct NodeState {
-  Vec3 normal;                   ///< direction of the last contact
-  Vec3 slip;                     ///< return mapping: elastic slip in the anchor's facet frame; anchors: F0
-  Vec3 slip_normal;              ///< return mapping: contact normal in the same frame
-  Vec3 friction;                 ///< friction force of the last step, as it acted on the surface
-  SurfacePoint anchor;           ///< return mapping: last contact point; anchors: where F0 acted
-  SurfacePoint last;             ///< last contact point
+  Vec3 normal;          ///< direction of the last contact
+  Vec3 slip;            ///< return mapping: elastic slip in the anchor's facet frame; anchors: F0
+  Vec3 slip_normal;     ///< return mapping: contact normal in the same frame
+  Vec3 friction;        ///< friction force of the last step, as it acted on the surface
+  SurfacePoint anchor;  ///< return mapping: last contact point; anchors: where F0 acted
+  SurfacePoint last;    ///< last contact point
   double tangential_stiffness = 0.0;
-  double rate = 0.0;             ///< speed of opening in the last step
-  double acceleration = 0.0;     ///< that the contact force gave to the opening
+  double rate = 0.0;          ///< speed of opening in the last step
+  double acceleration = 0.0;  ///< that the contact force gave to the opening
   std::int32_t facet = no_index;
   std::uint8_t held = 0;
-  std::uint8_t ignored = 0;      ///< lies behind and came from behind: not met until it is seen in front
+  std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
   std::uint8_t anchored = 0;
-  std::uint8_t in_front = 0;     ///< was measured in front of a facet
+  std::uint8_t in_front = 0;  ///< was measured in front of a facet
 };
 
 struct PassTotals {
@@ -86,19 +86,19 @@ class Pass {
   // One node in this cycle.
   struct Touch {
     Index facet = no_index;
-    bool known = false;    ///< facet, point, normal, distance are valid
+    bool known = false;  ///< facet, point, normal, distance are valid
     bool contact = false;
     bool fresh_hit = false;
-    bool far = false;      ///< cannot touch now or in the coming step: not measured
+    bool far = false;  ///< cannot touch now or in the coming step: not measured
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;
-    double area = 0.0;     ///< of the facet
+    double area = 0.0;  ///< of the facet
     PairForce pair;
   };
   struct Kinematics {
-    double rate = 0.0;            ///< of opening, n.(v - v_point)
-    double inverse_mass = 0.0;    ///< of the pair; 0: unknown
+    double rate = 0.0;          ///< of opening, n.(v - v_point)
+    double inverse_mass = 0.0;  ///< of the pair; 0: unknown
     Vec3 tangential_velocity;
   };
 

@@ -100,8 +100,7 @@ Vec3 Pass::rub_by_anchor(const Side& surface, const Touch& touch, double limit, 
     after.anchor = here;
   }
   const double stored = stiffness > 0.0 ? 0.5 * squared_norm(force) / stiffness : 0.0;
-  const double stored_before =
-      before.tangential_stiffness > 0.0 ? 0.5 * squared_norm(before.friction) / before.tangential_stiffness : 0.0;
+  const double stored_before = before.tangential_stiffness > 0.0 ? 0.5 * squared_norm(before.friction) / before.tangential_stiffness : 0.0;
   if (slips) {
     const Vec3 moved = touch.point - point_of(surface, before.last);
     const double lost = 0.5 * dot(before.friction + force, moved) - (stored - stored_before);

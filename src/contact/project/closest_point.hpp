@@ -32,8 +32,8 @@ inline constexpr double border_strip = 0.1;
 
 struct ClosestPoint {
   Feature feature = Feature::face;
-  std::uint8_t number = 0;         ///< edge or corner number
-  bool beyond = false;             ///< at the outer end of a strip (or past it): no contact
+  std::uint8_t number = 0;  ///< edge or corner number
+  bool beyond = false;      ///< at the outer end of a strip (or past it): no contact
   double s = 0.0, t = 0.0;
   double squared_distance = 0.0;
   Vec3 point;

@@ -42,9 +42,7 @@ void newton(const Patch& patch, const Vec3& x, double& s, double& t) {
 
 }  // namespace
 
-double edge_tolerance(double gap, double area) {
-  return area > 0.0 ? std::clamp(2.0 * std::abs(gap) / std::sqrt(area), 0.05, 0.2) : 0.05;
-}
+double edge_tolerance(double gap, double area) { return area > 0.0 ? std::clamp(2.0 * std::abs(gap) / std::sqrt(area), 0.05, 0.2) : 0.05; }
 
 PlainPoint project_plain(const Patch& patch, const Vec3& x, double gap, bool area_ratios) {
   const std::array<Vec3, 4>& corner = patch.x;

@@ -8,14 +8,14 @@
 namespace abut::contact {
 
 struct PlainPoint {
-  bool inside = false;             ///< |s|, |t| <= 1 + tolerance
-  double raw_s = 0.0, raw_t = 0.0; ///< before clipping
-  double s = 0.0, t = 0.0;         ///< clipped to [-1, 1]
-  std::array<double, 4> weight{};  ///< H_i
-  Vec3 point;                      ///< sum H_i x_i
-  Vec3 normal;                     ///< of the facet
-  double area = 0.0;               ///< of the facet in projection
-  double distance = 0.0;           ///< n.(x - point)
+  bool inside = false;              ///< |s|, |t| <= 1 + tolerance
+  double raw_s = 0.0, raw_t = 0.0;  ///< before clipping
+  double s = 0.0, t = 0.0;          ///< clipped to [-1, 1]
+  std::array<double, 4> weight{};   ///< H_i
+  Vec3 point;                       ///< sum H_i x_i
+  Vec3 normal;                      ///< of the facet
+  double area = 0.0;                ///< of the facet in projection
+  double distance = 0.0;            ///< n.(x - point)
 };
 
 /// @param area_ratios  closed form by areas (exact for parallelograms); false: Newton on the bilinear facet

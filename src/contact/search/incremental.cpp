@@ -89,7 +89,8 @@ void IncrementalSearch::refresh(const Side& surface, double gap) {
   moved_ = 0.0;
   double diagonal = 0.0;
   for (const auto& node : surface.surface().local()) {
-    diagonal = std::max({diagonal, squared_norm(then_[at(node[2])] - then_[at(node[0])]), squared_norm(then_[at(node[3])] - then_[at(node[1])])});
+    diagonal =
+        std::max({diagonal, squared_norm(then_[at(node[2])] - then_[at(node[0])]), squared_norm(then_[at(node[3])] - then_[at(node[1])])});
   }
   // Whoever can touch a facet has one of its nodes within a diagonal.
   reach_ = std::max(std::sqrt(diagonal) + std::abs(gap), 1e-300);

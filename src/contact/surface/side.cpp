@@ -102,9 +102,8 @@ void Side::gather(std::span<const Vec3> x) {
 
 Patch Side::patch(Index f) const {
   const std::array<Index, 4>& local = surface_.local()[at(f)];
-  return {{x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]},
-          surface_.facets()[at(f)].is_triangle(),
-          borders_[at(f)]};
+  return {
+      {x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, surface_.facets()[at(f)].is_triangle(), borders_[at(f)]};
 }
 
 Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
@@ -151,8 +150,9 @@ Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
 
 double Side::facet_area(Index f) const {
   const std::array<Index, 4>& local = surface_.local()[at(f)];
-  const Vec3 doubled = cross(x_[at(local[2])] - x_[at(local[0])],
-                             surface_.facets()[at(f)].is_triangle() ? x_[at(local[1])] - x_[at(local[0])] : x_[at(local[3])] - x_[at(local[1])]);
+  const Vec3 doubled =
+      cross(x_[at(local[2])] - x_[at(local[0])],
+            surface_.facets()[at(f)].is_triangle() ? x_[at(local[1])] - x_[at(local[0])] : x_[at(local[3])] - x_[at(local[1])]);
   return 0.5 * norm(doubled);
 }
 

@@ -50,9 +50,8 @@ Surface::Surface(std::vector<Facet> facets, std::span<const Id> node_key) : face
     if (!nodes_.empty() && at(nodes_.back()) >= node_key.size()) {
       throw std::invalid_argument("contact surface: node " + std::to_string(nodes_.back()) + " has no key");
     }
-    std::sort(nodes_.begin(), nodes_.end(), [node_key](Index a, Index b) {
-      return std::pair(node_key[at(a)], a) < std::pair(node_key[at(b)], b);
-    });
+    std::sort(nodes_.begin(), nodes_.end(),
+              [node_key](Index a, Index b) { return std::pair(node_key[at(a)], a) < std::pair(node_key[at(b)], b); });
   }
   connect();
 }
@@ -127,9 +126,8 @@ Index Surface::find(Index host_node) const {
 std::vector<Index> Surface::canonical_order() const {
   std::vector<Index> order(facets_.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [this](Index a, Index b) {
-    return std::pair(sorted_nodes(local_[at(a)]), a) < std::pair(sorted_nodes(local_[at(b)]), b);
-  });
+  std::sort(order.begin(), order.end(),
+            [this](Index a, Index b) { return std::pair(sorted_nodes(local_[at(a)]), a) < std::pair(sorted_nodes(local_[at(b)]), b); });
   return order;
 }
 

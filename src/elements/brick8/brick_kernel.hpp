@@ -4,11 +4,11 @@
 //   Rows r_k = sum_I (xi, eta, zeta)_I x_I (8 J_0), det = r_xi . (r_eta x r_zeta), V = det/64 (the centre-Jacobian volume; the program and
 //   hence we do not use the exact trilinear one), P_I = xi_I a + eta_I b + zeta_I c with (a, b, c) = (r_eta x r_zeta, ...)/det.
 //   L = v_xi a^T + v_eta b^T + v_zeta c^T with the same rows of v. f_I = V (sigma - q 1) P_I + sum_alpha gamma_I F_alpha.
-//   Gamma: products xi eta, eta zeta, zeta xi, -xi eta zeta. gamma = Gamma - P.X, X = sum_J Gamma_J x_J, for modes 1-3 of Isolid 1 (the mode 4
-//   as it is); Isolid 2: gamma = Gamma. Rates qdot = gamma . v = Gamma . v - L X. F = qdot (c_l + c_q |qdot|) per component,
-//   c_l = h/4 rho V^(2/3) c, c_q = 25 h c_l / c.
-//   Small strain (Ismstr 1): rows, X and face areas are those of cycle 0, in the frame of cycle 0. Iframe 2 lets the frame rotate with the
-//   element; with Iframe 1 they stay attached to the global axes, so that it is meant for small rotations only.
+//   Gamma: products xi eta, eta zeta, zeta xi, -xi eta zeta. gamma = Gamma - P.X, X = sum_J Gamma_J x_J, for modes 1-3 of Isolid 1 (the
+//   mode 4 as it is); Isolid 2: gamma = Gamma. Rates qdot = gamma . v = Gamma . v - L X. F = qdot (c_l + c_q |qdot|) per component, c_l =
+//   h/4 rho V^(2/3) c, c_q = 25 h c_l / c. Small strain (Ismstr 1): rows, X and face areas are those of cycle 0, in the frame of cycle 0.
+//   Iframe 2 lets the frame rotate with the element; with Iframe 1 they stay attached to the global axes, so that it is meant for small
+//   rotations only.
 // The eight nodal forces are combinations of seven vectors (three rows, four modes): both frames rotate only those.
 // Differs from [Flanagan Belytschko 1981]: V and P are those at the centre, mode 4 is not orthogonalised (numerics.md 4.1, 4.4).
 #pragma once
@@ -75,7 +75,9 @@ ABUT_INLINE Vec<R> hourglass_force(const Vec<R>& rate, R cl, R cq) {
 }
 
 template <class R>
-ABUT_INLINE R largest_component(const Vec<R>& a) { return simd::max(simd::max(simd::abs(a.x), simd::abs(a.y)), simd::abs(a.z)); }
+ABUT_INLINE R largest_component(const Vec<R>& a) {
+  return simd::max(simd::max(simd::abs(a.x), simd::abs(a.y)), simd::abs(a.z));
+}
 
 template <bool Corotational, class R>
 ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane, ChunkSums& sums) {
@@ -199,8 +201,8 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     const R g = largest_gradient(trace, squared);
     const R per_mass = eight * state.get(f_inverse_mass);
     StabilityTerms<R> t = stability_terms(c, point, per_mass * volume, trace, g);
-    const R fastest = simd::max(simd::max(largest_component(w.g1), largest_component(w.g2)),
-                                simd::max(largest_component(w.g3), largest_component(w.g4)));
+    const R fastest =
+        simd::max(simd::max(largest_component(w.g1), largest_component(w.g2)), simd::max(largest_component(w.g3), largest_component(w.g4)));
     const R viscosity = per_mass * (cl + R(2.0) * cq * fastest);
     t.hourglass = eight * viscosity;
     if (c.orthogonal_hourglass) t.mixed = viscosity * (dot(m.g1, m.g1) + dot(m.g2, m.g2) + dot(m.g3, m.g3)) * g;
@@ -230,19 +232,19 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
   stiffness = simd::select(acts, stiffness, zero);
 
   // ---- scatter: node I gets xi q0 + eta q1 + zeta q2 + Gamma . (q3..q6)
-  const Vec<R> ap = q[0] + q[1], am = q[0] - q[1];                // +-(xi + eta), +-(xi - eta)
-  const Vec<R> gp = q[3] + q[6], gm = q[3] - q[6];                // Gamma1 +- Gamma4
-  const Vec<R> hp = q[4] + q[5], hm = q[4] - q[5];                // Gamma2 +- Gamma3
+  const Vec<R> ap = q[0] + q[1], am = q[0] - q[1];  // +-(xi + eta), +-(xi - eta)
+  const Vec<R> gp = q[3] + q[6], gm = q[3] - q[6];  // Gamma1 +- Gamma4
+  const Vec<R> hp = q[4] + q[5], hm = q[4] - q[5];  // Gamma2 +- Gamma3
   const Vec<R> up = q[2] + ap, um = q[2] - ap, wp = q[2] + am, wm = q[2] - am;
   const Vec<R> f[8] = {
-      (gp + hp) - up,  // - - -   + + + +
-      (hm - gp) - wm,  // + - -   - + - -
-      (gp - hp) - um,  // + + -   + - - +
+      (gp + hp) - up,                               // - - -   + + + +
+      (hm - gp) - wm,                               // + - -   - + - -
+      (gp - hp) - um,                               // + + -   + - - +
       (Vec<R>{zero, zero, zero} - (gp + hm)) - wp,  // - + -   - - + -
-      (gm - hp) + um,  // - - +   + - - -
+      (gm - hp) + um,                               // - - +   + - - -
       (Vec<R>{zero, zero, zero} - (gm + hm)) + wp,  // + - +   - - + +
-      (gm + hp) + up,  // + + +   + + + -
-      (hm - gm) + wm,  // - + +   - + - +
+      (gm + hp) + up,                               // + + +   + + + -
+      (hm - gm) + wm,                               // - + +   - + - +
   };
   double* slots = task.slots + static_cast<std::ptrdiff_t>(block) * 256 + lane;
   for (int k = 0; k < 8; ++k) {

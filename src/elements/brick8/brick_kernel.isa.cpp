@@ -1,4 +1,5 @@
 #include "elements/brick8/brick_kernel.hpp"
+
 #include "simd/isa_object.hpp"
 
 namespace abut::elements::ABUT_ISA {

@@ -11,10 +11,10 @@
 namespace abut::elements {
 
 // kernel.isa.cpp, once per instruction set
-#define ABUT_DECLARE_C0(isa)                                                                                          \
-  namespace isa {                                                                                                     \
-  void c0_elastic(const ShellKernelArgs&, const C0Parameters&, double, std::size_t, std::size_t);                      \
-  void c0_johnson_cook(const ShellKernelArgs&, const C0Parameters&, double, std::size_t, std::size_t);                 \
+#define ABUT_DECLARE_C0(isa)                                                                           \
+  namespace isa {                                                                                      \
+  void c0_elastic(const ShellKernelArgs&, const C0Parameters&, double, std::size_t, std::size_t);      \
+  void c0_johnson_cook(const ShellKernelArgs&, const C0Parameters&, double, std::size_t, std::size_t); \
   }
 ABUT_DECLARE_C0(sse2)
 ABUT_DECLARE_C0(avx2)
@@ -27,9 +27,12 @@ using Kernel = void (*)(const ShellKernelArgs&, const C0Parameters&, double, std
 
 Kernel choose_kernel(bool plastic) {
   switch (simd::active_isa()) {
-    case simd::Isa::avx512: return plastic ? avx512::c0_johnson_cook : avx512::c0_elastic;
-    case simd::Isa::avx2: return plastic ? avx2::c0_johnson_cook : avx2::c0_elastic;
-    case simd::Isa::sse2: break;
+    case simd::Isa::avx512:
+      return plastic ? avx512::c0_johnson_cook : avx512::c0_elastic;
+    case simd::Isa::avx2:
+      return plastic ? avx2::c0_johnson_cook : avx2::c0_elastic;
+    case simd::Isa::sse2:
+      break;
   }
   return plastic ? sse2::c0_johnson_cook : sse2::c0_elastic;
 }
@@ -41,8 +44,8 @@ class ShellC0Group final : public ShellGroup {
     if (section_) {
       const auto& p = std::get<model::ShellProperty>(property_of(in).data);
       if (p.ish3n != 1 && p.ish3n != 2) {
-        throw std::invalid_argument("property " + std::to_string(property_of(in).id) + ": triangle formulation " +
-                                    std::to_string(p.ish3n) + " does not exist here (Ish3n 1 or 2)");
+        throw std::invalid_argument("property " + std::to_string(property_of(in).id) + ": triangle formulation " + std::to_string(p.ish3n) +
+                                    " does not exist here (Ish3n 1 or 2)");
       }
       parameters_.large_rotation = p.ish3n == 2;
       parameters_.step_bound = in.profile.element_step == Profile::ElementStep::bound;

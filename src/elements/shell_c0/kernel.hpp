@@ -72,8 +72,8 @@ ABUT_INLINE C0ShearRows<T> c0_shear_rows(const C0Geometry<T>& g) {
 }
 
 template <class T>
-ABUT_INLINE ShellStep<T> c0_step_bound(const ShellSection& s, const C0Geometry<T>& g, const C0ShearRows<T>& r, T t, T m1,
-                                       T m2, T m3, T inertia, double h) {
+ABUT_INLINE ShellStep<T> c0_step_bound(const ShellSection& s, const C0Geometry<T>& g, const C0ShearRows<T>& r, T t, T m1, T m2, T m3,
+                                       T inertia, double h) {
   const T one = T(1.0), four = T(4.0), half = T(0.5), zero = T(0.0);
   const T i1 = one / m1, i2 = one / m2, i3 = one / m3;
   const T pxx = g.px1 * g.px1 * (i1 + i2);
@@ -88,19 +88,17 @@ ABUT_INLINE ShellStep<T> c0_step_bound(const ShellSection& s, const C0Geometry<T
   if (s.bending) {
     const T ir = one / inertia;
     const T bending = membrane * T(1.0 / 12.0) * t * t * ir;
-    const T zz = pxx + ir * (i1 * (r.zx_x1 * r.zx_x1 + r.zx_y1 * r.zx_y1) + i2 * (r.zx_x2 * r.zx_x2 + r.zx_y2 * r.zx_y2) +
-                             i3 * (r.zx_y3 * r.zx_y3));
+    const T zz =
+        pxx + ir * (i1 * (r.zx_x1 * r.zx_x1 + r.zx_y1 * r.zx_y1) + i2 * (r.zx_x2 * r.zx_x2 + r.zx_y2 * r.zx_y2) + i3 * (r.zx_y3 * r.zx_y3));
     const T yy = pyy + ir * (i1 * (r.yz_x1 * r.yz_x1 + r.yz_y1 * r.yz_y1) + i2 * (r.yz_x2 * r.yz_x2 + r.yz_y2 * r.yz_y2) +
                              i3 * (r.yz_x3 * r.yz_x3 + r.yz_y3 * r.yz_y3));
-    const T zy = pxy + ir * (i1 * (r.zx_x1 * r.yz_x1 + r.zx_y1 * r.yz_y1) + i2 * (r.zx_x2 * r.yz_x2 + r.zx_y2 * r.yz_y2) +
-                             i3 * (r.zx_y3 * r.yz_y3));
+    const T zy =
+        pxy + ir * (i1 * (r.zx_x1 * r.yz_x1 + r.zx_y1 * r.yz_y1) + i2 * (r.zx_x2 * r.yz_x2 + r.zx_y2 * r.yz_y2) + i3 * (r.zx_y3 * r.yz_y3));
     const T largest = half * (zz + yy + sqrt((zz - yy) * (zz - yy) + four * zy * zy));
     k = max(k, bending + T(s.shear_factor * s.elastic.shear) * t_per_a * largest);
   }
   T c = zero;
-  if (s.membrane_damping > 0.0) {
-    c = t_per_a * T(s.membrane_damping) * sqrt(g.area) * damping_eigenvalue(trace, det);
-  }
+  if (s.membrane_damping > 0.0) { c = t_per_a * T(s.membrane_damping) * sqrt(g.area) * damping_eigenvalue(trace, det); }
   ShellStep<T> out;
   out.step = stable_step(k, c);
   out.per_mass = half * (k + viscous_stiffness(c, out.step, h));
@@ -110,8 +108,7 @@ ABUT_INLINE ShellStep<T> c0_step_bound(const ShellSection& s, const C0Geometry<T
 }
 
 template <class T>
-ABUT_INLINE ShellStep<T> c0_step_reference(const ShellSection& s, const C0Parameters& q, const C0Geometry<T>& g, T t,
-                                           double damping) {
+ABUT_INLINE ShellStep<T> c0_step_reference(const ShellSection& s, const C0Parameters& q, const C0Geometry<T>& g, T t, double damping) {
   const T x32 = g.x3 - g.x2;
   const T longest = max(g.x2 * g.x2, max(g.x3 * g.x3, x32 * x32) + g.y3 * g.y3);
   const T length2 = T(4.0) * g.area * g.area / longest;
@@ -131,8 +128,7 @@ ABUT_INLINE ShellStep<T> c0_step_reference(const ShellSection& s, const C0Parame
 
 /// The NumberTraits<T>::width elements from `lane` on of one block.
 template <class T, ShellLaw law>
-ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, double damping, std::size_t block,
-                          int lane) {
+ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, double damping, std::size_t block, int lane) {
   using section_detail::get;
   using section_detail::put;
   const ShellSection& s = *args.section;
@@ -150,8 +146,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   const auto alive = (get<T>(state, shell_state::off) > zero) & (not_rigid > zero);
 
   // geometry and velocities in the frame
-  const C0Geometry<T> g =
-      c0_geometry(gather(T{}, args.x, nodes), gather(T{}, args.x, nodes + 8), gather(T{}, args.x, nodes + 16));
+  const C0Geometry<T> g = c0_geometry(gather(T{}, args.x, nodes), gather(T{}, args.x, nodes + 8), gather(T{}, args.x, nodes + 16));
   const T inverse_area = one / g.area;
   const T vx1 = dot(gv1, g.e1), vx2 = dot(gv2, g.e1), vx3 = dot(gv3, g.e1);
   const T vy1 = dot(gv1, g.e2), vy2 = dot(gv2, g.e2), vy3 = dot(gv3, g.e2);
@@ -189,8 +184,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   rate.gzx = select(alive, zx * inverse_area, zero);
   rate.kxx = select(alive, g.px1 * (wy1 - wy2) * inverse_area, zero);
   rate.kyy = select(alive, -((g.py1 * (wx1 - wx3) + g.py2 * (wx2 - wx3)) * inverse_area), zero);
-  rate.kxy =
-      select(alive, (g.py1 * (wy1 - wy3) + g.py2 * (wy2 - wy3) - g.px1 * (wx1 - wx2)) * inverse_area, zero);
+  rate.kxy = select(alive, (g.py1 * (wy1 - wy3) + g.py2 * (wy2 - wy3) - g.px1 * (wx1 - wx2)) * inverse_area, zero);
 
   const ShellForces<T> n = update_section<T, law>(s, state, rate, h, g.area);
   const T t = n.thickness, t2 = t * t;
@@ -212,13 +206,11 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   T mass[3];
   for (int i = 0; i < 3; ++i) mass[i] = simd::NumberTraits<T>::load(constants + (shell_constant::mass + i) * shell_lanes);
   const T inertia = simd::NumberTraits<T>::load(constants + shell_constant::inertia * shell_lanes);
-  const ShellStep<T> step = q.step_bound ? c0_step_bound(s, g, r, t, mass[0], mass[1], mass[2], inertia, h)
-                                         : c0_step_reference(s, q, g, t, damping);
+  const ShellStep<T> step =
+      q.step_bound ? c0_step_bound(s, g, r, t, mass[0], mass[1], mass[2], inertia, h) : c0_step_reference(s, q, g, t, damping);
   const auto stays = alive & (n.off > zero);
-  simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane),
-                               select(stays, step.step, T(1e30)));
-  const Vec<T> f[3] = {f1x * g.e1 + f1y * g.e2 + f1z * g.e3, f2x * g.e1 + f2y * g.e2 + f2z * g.e3,
-                       f3x * g.e1 + f3y * g.e2 + f3z * g.e3};
+  simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
+  const Vec<T> f[3] = {f1x * g.e1 + f1y * g.e2 + f1z * g.e3, f2x * g.e1 + f2y * g.e2 + f2z * g.e3, f3x * g.e1 + f3y * g.e2 + f3z * g.e3};
   const Vec<T> m[3] = {m1x * g.e1 + m1y * g.e2, m2x * g.e1 + m2y * g.e2, m3x * g.e1 + m3y * g.e2};
   for (int i = 0; i < 3; ++i) {
     double* slot = slots + i * 8 * shell_lanes;
@@ -237,8 +229,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
 
 /// Blocks [begin, end). `damping`: sqrt(1 + dm^2) - dm, the factor of the reference's step.
 template <class T, ShellLaw law>
-ABUT_INLINE void c0_blocks(const ShellKernelArgs& args, const C0Parameters& q, double damping, std::size_t begin,
-                           std::size_t end) {
+ABUT_INLINE void c0_blocks(const ShellKernelArgs& args, const C0Parameters& q, double damping, std::size_t begin, std::size_t end) {
   for (std::size_t b = begin; b < end; ++b) {
     for (int lane = 0; lane < shell_lanes; lane += simd::NumberTraits<T>::width) c0_lanes<T, law>(args, q, damping, b, lane);
   }

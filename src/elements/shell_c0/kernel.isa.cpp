@@ -1,5 +1,6 @@
 // The production kernels of the triangle, one object per instruction set.
 #include "elements/shell_c0/kernel.hpp"
+
 #include "simd/isa_object.hpp"
 
 namespace abut::elements::ABUT_ISA {

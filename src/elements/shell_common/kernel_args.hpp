@@ -12,9 +12,9 @@ namespace abut::elements {
 /// Constants of one element (8 doubles each in a block) that never change after set-up.
 namespace shell_constant {
 enum : int {
-  regular = 0,  ///< 0: nodes 3 and 4 of a quad coincide; else 1
-  active,       ///< 0: rigid or padding; else 1
-  mass,         ///< 4 per element (3 used by triangles): mass share of each node
+  regular = 0,         ///< 0: nodes 3 and 4 of a quad coincide; else 1
+  active,              ///< 0: rigid or padding; else 1
+  mass,                ///< 4 per element (3 used by triangles): mass share of each node
   inertia = mass + 4,  ///< rotational inertia over mass, the same for every node of the element
   count
 };
@@ -24,7 +24,7 @@ struct ShellKernelArgs {
   const double* x = nullptr;  ///< #N by 3
   const double* v = nullptr;
   const double* w = nullptr;
-  double h = 0.0;             ///< length of the step that ends now
+  double h = 0.0;  ///< length of the step that ends now
   const ShellSection* section = nullptr;
   double* state = nullptr;              ///< #B by variables by 8
   const std::int32_t* nodes = nullptr;  ///< #B by nodes per element by 8; each 3 times the node's index
@@ -38,13 +38,21 @@ struct Vec {
   T x, y, z;
 };
 template <class T>
-ABUT_INLINE Vec<T> operator+(Vec<T> a, Vec<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+ABUT_INLINE Vec<T> operator+(Vec<T> a, Vec<T> b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 template <class T>
-ABUT_INLINE Vec<T> operator-(Vec<T> a, Vec<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+ABUT_INLINE Vec<T> operator-(Vec<T> a, Vec<T> b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 template <class T>
-ABUT_INLINE Vec<T> operator*(T s, Vec<T> a) { return {s * a.x, s * a.y, s * a.z}; }
+ABUT_INLINE Vec<T> operator*(T s, Vec<T> a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
 template <class T>
-ABUT_INLINE T dot(Vec<T> a, Vec<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+ABUT_INLINE T dot(Vec<T> a, Vec<T> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 template <class T>
 ABUT_INLINE Vec<T> cross(Vec<T> a, Vec<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -63,8 +71,7 @@ ABUT_INLINE Vec<simd::Pack<W>> gather(simd::Pack<W> /*type*/, const double* base
     return {simd::Pack<W>(R{a[0], b[0]}), simd::Pack<W>(R{a[1], b[1]}), simd::Pack<W>(R{a[2], b[2]})};
   } else if constexpr (W == 4) {
     const double *a = base + nodes[0], *b = base + nodes[1], *c = base + nodes[2], *d = base + nodes[3];
-    return {simd::Pack<W>(R{a[0], b[0], c[0], d[0]}), simd::Pack<W>(R{a[1], b[1], c[1], d[1]}),
-            simd::Pack<W>(R{a[2], b[2], c[2], d[2]})};
+    return {simd::Pack<W>(R{a[0], b[0], c[0], d[0]}), simd::Pack<W>(R{a[1], b[1], c[1], d[1]}), simd::Pack<W>(R{a[2], b[2], c[2], d[2]})};
   } else {
     R x, y, z;
     for (int i = 0; i < W; ++i) {

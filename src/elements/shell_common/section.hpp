@@ -34,13 +34,13 @@ enum class ShellLaw { elastic, johnson_cook };
 /// Variables of one element that every shell has; each is 8 doubles (one per lane) in its block.
 namespace shell_state {
 enum : int {
-  f = 0,                 ///< F xx yy xy yz zx as used for forces at the end of the last step
-  m = 5,                 ///< M xx yy xy, likewise
+  f = 0,  ///< F xx yy xy yz zx as used for forces at the end of the last step
+  m = 5,  ///< M xx yy xy, likewise
   membrane_energy = 8,
   bending_energy = 9,
   hourglass_energy = 10,
   thickness = 11,
-  off = 12,              ///< activity
+  off = 12,  ///< activity
   common = 13
 };
 }
@@ -51,21 +51,21 @@ struct ShellSection {
   materials::ShellJohnsonCook plastic;
   double density = 0.0, sound = 0.0;  ///< rho_0, sqrt(E/rho_0)
   int points = 0;
-  double shear_factor = 0.0;          ///< kappa_s; 0 for N = 1
-  bool bending = true;                ///< false for N = 1
+  double shear_factor = 0.0;  ///< kappa_s; 0 for N = 1
+  bool bending = true;        ///< false for N = 1
   bool thickness_changes = false;
-  double membrane_damping = 0.0;      ///< 1.414 dm rho c; 0 = none
+  double membrane_damping = 0.0;  ///< 1.414 dm rho c; 0 = none
   double zeta[max_thickness_points] = {}, weight[max_thickness_points] = {}, moment_weight[max_thickness_points] = {};
 
   enum class Rate { none, total, deviatoric, plastic } rate = Rate::none;
-  double filter = 0.0;                ///< 2 pi F_cut; 0 = no filter
+  double filter = 0.0;  ///< 2 pi F_cut; 0 = no filter
   bool temperature = false;
-  bool mean_yield = false;            ///< the hourglass rule wants the mean yield stress
+  bool mean_yield = false;  ///< the hourglass rule wants the mean yield stress
 
-  int at_elastic = -1;                ///< LAW1 with damping: F xx yy xy; LAW2: tau yz zx, both without damping and activity
-  int at_rate = -1;                   ///< filtered rate of the element
-  int at_rate_thickness = -1;         ///< thickness of the bending term of the rate while the thickness itself is constant
-  int at_points = -1;                 ///< per point: sigma xx yy xy, p, hardening; then the optional ones below
+  int at_elastic = -1;         ///< LAW1 with damping: F xx yy xy; LAW2: tau yz zx, both without damping and activity
+  int at_rate = -1;            ///< filtered rate of the element
+  int at_rate_thickness = -1;  ///< thickness of the bending term of the rate while the thickness itself is constant
+  int at_points = -1;          ///< per point: sigma xx yy xy, p, hardening; then the optional ones below
   int point_size = 0;
   int point_back = -1, point_rate = -1, point_temperature = -1;
   int variables = shell_state::common;  ///< in all
@@ -99,8 +99,8 @@ ABUT_INLINE void put(double* state, int variable, T value) {
 /// LAW2: the points' stresses to the end of the step; F, M without damping. `d` holds increments.
 /// @return elongation through the thickness
 template <class T>
-ABUT_INLINE T integrate_johnson_cook(const ShellSection& s, double* state, const ShellRates<T>& rate, double h, T t,
-                                     T off, ShellForces<T>& out, T& failing) {
+ABUT_INLINE T integrate_johnson_cook(const ShellSection& s, double* state, const ShellRates<T>& rate, double h, T t, T off,
+                                     ShellForces<T>& out, T& failing) {
   const materials::ShellJohnsonCook& law = s.plastic;
   const T zero = T(0.0), one = T(1.0), step = T(h);
   const T a11 = T(s.elastic.a11), a12 = T(s.elastic.a12), g = T(s.elastic.shear);
@@ -168,10 +168,9 @@ ABUT_INLINE T integrate_johnson_cook(const ShellSection& s, double* state, const
     if (simd::any(yields)) {
       const T mises = sqrt(select(yields, mises2, yield * yield));
       const T p = get<T>(point, 3);
-      const materials::PlasticUpdate<T> u =
-          law.mapping == 1   ? materials::iterative_return(law, sigma, mises, yield, p, q, cap)
-          : law.mapping == 3 ? materials::normal_return(law, sigma, mises, yield, p, q, cap)
-                             : materials::radial_return(law, sigma, mises, yield, p, off);
+      const materials::PlasticUpdate<T> u = law.mapping == 1   ? materials::iterative_return(law, sigma, mises, yield, p, q, cap)
+                                            : law.mapping == 3 ? materials::normal_return(law, sigma, mises, yield, p, q, cap)
+                                                               : materials::radial_return(law, sigma, mises, yield, p, off);
       sigma.xx = select(yields, u.stress.xx, sigma.xx);
       sigma.yy = select(yields, u.stress.yy, sigma.yy);
       sigma.xy = select(yields, u.stress.xy, sigma.xy);
@@ -226,8 +225,7 @@ ABUT_INLINE T integrate_johnson_cook(const ShellSection& s, double* state, const
 /// One step of the section. @param state the element's variables: its block's state plus its lane
 /// @param rate zero in lanes that must not change; @param h length of the step; @param area current area
 template <class T, ShellLaw law>
-ABUT_INLINE ShellForces<T> update_section(const ShellSection& s, double* state, const ShellRates<T>& rate, double h,
-                                          T area) {
+ABUT_INLINE ShellForces<T> update_section(const ShellSection& s, double* state, const ShellRates<T>& rate, double h, T area) {
   using section_detail::get;
   using section_detail::put;
   const T one = T(1.0), step = T(h);
@@ -300,8 +298,8 @@ ABUT_INLINE ShellForces<T> update_section(const ShellSection& s, double* state, 
   out.off = off;
 
   const T half_volume = T(0.5) * area * t;
-  const T membrane = (old_fxx + out.fxx) * dexx + (old_fyy + out.fyy) * deyy + (old_fxy + out.fxy) * dgxy +
-                     (old_fyz + out.fyz) * dgyz + (old_fzx + out.fzx) * dgzx;
+  const T membrane = (old_fxx + out.fxx) * dexx + (old_fyy + out.fyy) * deyy + (old_fxy + out.fxy) * dgxy + (old_fyz + out.fyz) * dgyz +
+                     (old_fzx + out.fzx) * dgzx;
   const T bending = (old_mxx + out.mxx) * dkxx + (old_myy + out.myy) * dkyy + (old_mxy + out.mxy) * dkxy;
   put(state, shell_state::membrane_energy, get<T>(state, shell_state::membrane_energy) + half_volume * membrane);
   put(state, shell_state::bending_energy, get<T>(state, shell_state::bending_energy) + half_volume * t * bending);

@@ -31,9 +31,7 @@ void set_johnson_cook(ShellSection& s, const model::LawJohnsonCook& law, const m
     p.c = law.c;
     p.rate_0 = law.eps_rate_0;
     p.inverse_rate_0 = 1.0 / law.eps_rate_0;
-    s.rate = law.vp == 1   ? ShellSection::Rate::plastic
-             : law.vp == 3 ? ShellSection::Rate::deviatoric
-                           : ShellSection::Rate::total;
+    s.rate = law.vp == 1 ? ShellSection::Rate::plastic : law.vp == 3 ? ShellSection::Rate::deviatoric : ShellSection::Rate::total;
     const double cutoff = law.vp == 1 ? plastic_rate_cutoff_hz * units.time : law.cutoff;
     s.filter = 2.0 * std::numbers::pi * cutoff;
   }
@@ -108,14 +106,11 @@ void set_thickness_points(ShellSection& s, int points) {
 std::optional<ShellSection> make_section(const GroupInput& in, bool mean_yield) {
   const model::Property& property = property_of(in);
   const model::Material& material = material_of(in);
-  if (std::holds_alternative<model::VoidProperty>(property.data) ||
-      std::holds_alternative<model::LawVoid>(material.law)) {
+  if (std::holds_alternative<model::VoidProperty>(property.data) || std::holds_alternative<model::LawVoid>(material.law)) {
     return std::nullopt;
   }
   const auto* shell = std::get_if<model::ShellProperty>(&property.data);
-  if (shell == nullptr) {
-    throw std::invalid_argument("property " + std::to_string(property.id) + " is not a shell property");
-  }
+  if (shell == nullptr) { throw std::invalid_argument("property " + std::to_string(property.id) + " is not a shell property"); }
   ShellSection s;
   const auto* johnson_cook = std::get_if<model::LawJohnsonCook>(&material.law);
   const auto* elastic = std::get_if<model::LawElastic>(&material.law);

@@ -46,13 +46,10 @@ std::array<Vec3, 4> ShellGroup::corners(Index element, const Vec3* x) const {
 
 double& ShellGroup::variable(Index element, int which) {
   const auto e = static_cast<std::size_t>(element);
-  return state_[((e / lanes) * static_cast<std::size_t>(section_->variables) + static_cast<std::size_t>(which)) * lanes +
-                e % lanes];
+  return state_[((e / lanes) * static_cast<std::size_t>(section_->variables) + static_cast<std::size_t>(which)) * lanes + e % lanes];
 }
 
-double ShellGroup::variable(Index element, int which) const {
-  return const_cast<ShellGroup*>(this)->variable(element, which);
-}
+double ShellGroup::variable(Index element, int which) const { return const_cast<ShellGroup*>(this)->variable(element, which); }
 
 double ShellGroup::constant(Index element, int which) const {
   const auto e = static_cast<std::size_t>(element);
@@ -92,8 +89,7 @@ void ShellGroup::set_up() {
     const Index source = std::min(e, size() - 1);
     const std::span<const Index> n = nodes(source);
     for (std::size_t k = 0; k < per_element_; ++k) {
-      nodes_[(static_cast<std::size_t>(e / lanes) * per_element_ + k) * lanes + static_cast<std::size_t>(e % lanes)] =
-          3 * n[k];
+      nodes_[(static_cast<std::size_t>(e / lanes) * per_element_ + k) * lanes + static_cast<std::size_t>(e % lanes)] = 3 * n[k];
     }
     variable(e, shell_state::thickness) = initial_thickness(source);
     variable(e, shell_state::off) = e < size() ? 1.0 : 0.0;
@@ -211,8 +207,7 @@ Index ShellGroup::first_bad_element(std::size_t block) const {
 void ShellGroup::set_rigid(std::span<const std::uint8_t> rigid) {
   if (rigid.size() != elements_.size()) throw std::invalid_argument("set_rigid: one flag per element of the group");
   for (std::size_t e = 0; e < rigid.size(); ++e) {
-    constants_[((e / lanes) * shell_constant::count + shell_constant::active) * lanes + e % lanes] =
-        rigid[e] != 0 ? 0.0 : 1.0;
+    constants_[((e / lanes) * shell_constant::count + shell_constant::active) * lanes + e % lanes] = rigid[e] != 0 ? 0.0 : 1.0;
   }
 }
 

@@ -15,7 +15,7 @@ namespace abut::elements {
 struct ShellShares {
   std::array<double, 4> mass{};  ///< per node slot
   double inertia_per_mass = 0.0;
-  bool regular = true;           ///< false: nodes 3 and 4 of a quad coincide
+  bool regular = true;  ///< false: nodes 3 and 4 of a quad coincide
 };
 
 /// A frame and area at given positions.

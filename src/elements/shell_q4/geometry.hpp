@@ -15,15 +15,14 @@ namespace abut::elements {
 template <class T>
 struct Q4Geometry {
   Vec<T> e1, e2, e3;
-  T x2, y2, x3, y3, x4, y4, z2;      ///< local coordinates relative to node 1
+  T x2, y2, x3, y3, x4, y4, z2;  ///< local coordinates relative to node 1
   T px1, py1, px2, py2, area;
-  T hx, hy;                          ///< 0 where gamma = Gamma
+  T hx, hy;  ///< 0 where gamma = Gamma
   T gamma1, gamma2, gamma3, gamma4;
 };
 
 template <class T>
-ABUT_INLINE void q4_frame(bool frame_v4, const Vec<T>& x1, const Vec<T>& x2, const Vec<T>& x3, const Vec<T>& x4,
-                          Q4Geometry<T>& g) {
+ABUT_INLINE void q4_frame(bool frame_v4, const Vec<T>& x1, const Vec<T>& x2, const Vec<T>& x3, const Vec<T>& x4, Q4Geometry<T>& g) {
   const T one = T(1.0);
   const Vec<T> d31 = x3 - x1, d42 = x4 - x2;
   const Vec<T> r = d31 - d42, s = d31 + d42;

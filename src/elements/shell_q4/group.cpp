@@ -11,10 +11,10 @@
 namespace abut::elements {
 
 // kernel.isa.cpp, once per instruction set
-#define ABUT_DECLARE_Q4(isa)                                                                                          \
-  namespace isa {                                                                                                     \
-  void q4_elastic(const ShellKernelArgs&, const Q4Parameters&, double, std::size_t, std::size_t);                      \
-  void q4_johnson_cook(const ShellKernelArgs&, const Q4Parameters&, double, std::size_t, std::size_t);                 \
+#define ABUT_DECLARE_Q4(isa)                                                                           \
+  namespace isa {                                                                                      \
+  void q4_elastic(const ShellKernelArgs&, const Q4Parameters&, double, std::size_t, std::size_t);      \
+  void q4_johnson_cook(const ShellKernelArgs&, const Q4Parameters&, double, std::size_t, std::size_t); \
   }
 ABUT_DECLARE_Q4(sse2)
 ABUT_DECLARE_Q4(avx2)
@@ -27,9 +27,12 @@ using Kernel = void (*)(const ShellKernelArgs&, const Q4Parameters&, double, std
 
 Kernel choose_kernel(bool plastic) {
   switch (simd::active_isa()) {
-    case simd::Isa::avx512: return plastic ? avx512::q4_johnson_cook : avx512::q4_elastic;
-    case simd::Isa::avx2: return plastic ? avx2::q4_johnson_cook : avx2::q4_elastic;
-    case simd::Isa::sse2: break;
+    case simd::Isa::avx512:
+      return plastic ? avx512::q4_johnson_cook : avx512::q4_elastic;
+    case simd::Isa::avx2:
+      return plastic ? avx2::q4_johnson_cook : avx2::q4_elastic;
+    case simd::Isa::sse2:
+      break;
   }
   return plastic ? sse2::q4_johnson_cook : sse2::q4_elastic;
 }
@@ -37,8 +40,8 @@ Kernel choose_kernel(bool plastic) {
 Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p, ShellSection& s) {
   Q4Parameters q;
   if (p.ishell < 1 || p.ishell > 4) {
-    throw std::invalid_argument("property " + std::to_string(property_of(in).id) + ": shell formulation " +
-                                std::to_string(p.ishell) + " does not exist here (Ishell 1 to 4)");
+    throw std::invalid_argument("property " + std::to_string(property_of(in).id) + ": shell formulation " + std::to_string(p.ishell) +
+                                " does not exist here (Ishell 1 to 4)");
   }
   q.ishell = p.ishell;
   q.hm = p.hm;
@@ -48,8 +51,7 @@ Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p
   q.frame_v4 = in.model->shell_frame_v4;
   const bool small_strain = p.ismstr == 1 || (p.ismstr == 3 && p.ishell == 2);
   q.plain_gamma = p.ishell == 2 || (p.ismstr == 1 && p.ishell != 3);
-  q.may_freeze =
-      small_strain || (in.step_action == model::StepControl::Action::constant && (p.ismstr == 2 || p.ismstr == 3));
+  q.may_freeze = small_strain || (in.step_action == model::StepControl::Action::constant && (p.ismstr == 2 || p.ismstr == 3));
   q.step_bound = in.profile.element_step == Profile::ElementStep::bound;
   q.nodal_step = in.model->controls.nodal_step;
   q.trapezoidal = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;

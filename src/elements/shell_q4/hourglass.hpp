@@ -5,7 +5,8 @@
 //   Ishell 3: elastic Q within +- a plastic cap; rotations: linear and quadratic viscosity
 //   N = 1: elastic only, the normal mode as stiff as the membrane; with dn two viscous normal modes
 // All coefficients vanish on a quad whose nodes 3 and 4 coincide. Rates, gamma and moments carry the activity `off`.
-// Rotational viscosity: the reference's quadratic constants have the dimension of a moment over a length; `homogeneous` multiplies them by sqrt(A).
+// Rotational viscosity: the reference's quadratic constants have the dimension of a moment over a length; `homogeneous` multiplies them by
+// sqrt(A).
 #pragma once
 
 #include "elements/shell_common/section.hpp"
@@ -15,16 +16,16 @@ namespace abut::elements {
 
 template <class T>
 struct Q4Hourglass {
-  T qx, qy, qz;        ///< generalised forces, to be multiplied by off gamma_I
-  T mx, my;            ///< moments of node 1; pattern + - + -
-  T dn_1, dn_2;        ///< N = 1 with dn: normal forces of patterns (+ + - -) and (+ - - +)
+  T qx, qy, qz;  ///< generalised forces, to be multiplied by off gamma_I
+  T mx, my;      ///< moments of node 1; pattern + - + -
+  T dn_1, dn_2;  ///< N = 1 with dn: normal forces of patterns (+ + - -) and (+ - - +)
   Q4HourglassStiffness<T> stiffness;
 };
 
 /// `rx ry rz tx ty`: rates with the activity; `d1 d2`: rates of the two dn modes.
 template <class T>
-ABUT_INLINE Q4Hourglass<T> q4_hourglass(const ShellSection& s, const Q4Parameters& p, double* state, T regular, T t, T area,
-                                        T b_sum, T off, T yield, T rx, T ry, T rz, T tx, T ty, T d1, T d2, double h) {
+ABUT_INLINE Q4Hourglass<T> q4_hourglass(const ShellSection& s, const Q4Parameters& p, double* state, T regular, T t, T area, T b_sum, T off,
+                                        T yield, T rx, T ry, T rz, T tx, T ty, T d1, T d2, double h) {
   using section_detail::get;
   using section_detail::put;
   const T zero = T(0.0);
@@ -90,8 +91,8 @@ ABUT_INLINE Q4Hourglass<T> q4_hourglass(const ShellSection& s, const Q4Parameter
   T work = o.qx * rx + o.qy * ry + o.qz * rz + o.mx * tx + o.my * ty;
   if (p.at_hourglass_old >= 0) {
     const int at = p.at_hourglass_old;
-    work = T(0.5) * (work + (get<T>(state, at) * rx + get<T>(state, at + 1) * ry + get<T>(state, at + 2) * rz +
-                             get<T>(state, at + 3) * tx + get<T>(state, at + 4) * ty));
+    work = T(0.5) * (work + (get<T>(state, at) * rx + get<T>(state, at + 1) * ry + get<T>(state, at + 2) * rz + get<T>(state, at + 3) * tx +
+                             get<T>(state, at + 4) * ty));
     put(state, at, o.qx);
     put(state, at + 1, o.qy);
     put(state, at + 2, o.qz);

@@ -55,8 +55,7 @@ ABUT_INLINE void store_slot(double* slot, int component, T value) {
 
 /// The NumberTraits<T>::width elements from `lane` on of one block.
 template <class T, ShellLaw law>
-ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t block,
-                          int lane) {
+ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t block, int lane) {
   using section_detail::get;
   const ShellSection& s = *args.section;
   const double h = args.h;
@@ -145,10 +144,10 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const T t = n.thickness;
   const T b_sum = g.px1 * g.px1 + g.py1 * g.py1 + g.px2 * g.px2 + g.py2 * g.py2;
   const T d1 = vz13 + vz24, d2 = vz13 - vz24;
-  const Q4Hourglass<T> hg = q4_hourglass<T>(
-      s, q, state, regular, t, g.area, b_sum, n.off, n.yield, select(alive, n.off * rate_x, zero),
-      select(alive, n.off * rate_y, zero), select(alive, n.off * rate_z, zero), select(alive, wxh, zero),
-      select(alive, wyh, zero), select(alive, d1, zero), select(alive, d2, zero), h);
+  const Q4Hourglass<T> hg =
+      q4_hourglass<T>(s, q, state, regular, t, g.area, b_sum, n.off, n.yield, select(alive, n.off * rate_x, zero),
+                      select(alive, n.off * rate_y, zero), select(alive, n.off * rate_z, zero), select(alive, wxh, zero),
+                      select(alive, wyh, zero), select(alive, d1, zero), select(alive, d2, zero), h);
 
   // nodal forces and moments in the frame: gradient part of nodes 1 and 2, the rest
   const T f1x = t * (n.fxx * g.px1 + n.fxy * g.py1), f2x = t * (n.fxx * g.px2 + n.fxy * g.py2);
@@ -172,8 +171,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const ShellStep<T> step = q.step_bound ? q4_step_bound(s, q, g, t, mass, inertia, hg.stiffness, h)
                                          : q4_step_reference(s, q, g, t, regular, damping, hg.stiffness);
   const auto stays = alive & (n.off > zero);
-  simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane),
-                               select(stays, step.step, T(1e30)));
+  simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
   const T stiffness = select(stays, q.step_bound ? step.per_mass * mass : step.stiffness, zero);
   const T rotational = select(stays, q.step_bound ? step.per_mass * mass * inertia : step.rotational, zero);
   const Vec<T> f[4] = {f1 + g.gamma1 * fh, f2 + g.gamma2 * fh, g.gamma3 * fh - f1, g.gamma4 * fh - f2};
@@ -193,8 +191,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
 
 /// Blocks [begin, end). `damping`: sqrt(1 + dm^2) - dm, the factor of the reference's step.
 template <class T, ShellLaw law>
-ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t begin,
-                           std::size_t end) {
+ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t begin, std::size_t end) {
   for (std::size_t b = begin; b < end; ++b) {
     for (int lane = 0; lane < shell_lanes; lane += simd::NumberTraits<T>::width) q4_lanes<T, law>(args, q, damping, b, lane);
   }

@@ -1,5 +1,6 @@
 // The production kernels of the quadrilateral, one object per instruction set.
 #include "elements/shell_q4/kernel.hpp"
+
 #include "simd/isa_object.hpp"
 
 namespace abut::elements::ABUT_ISA {

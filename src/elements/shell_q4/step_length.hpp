@@ -45,8 +45,8 @@ struct Q4HourglassStiffness {
 
 /// `mass`: m/4; `inertia`: r^2.
 template <class T>
-ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters& q, const Q4Geometry<T>& g, T t, T mass,
-                                       T inertia, const Q4HourglassStiffness<T>& hg, double h) {
+ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters& q, const Q4Geometry<T>& g, T t, T mass, T inertia,
+                                       const Q4HourglassStiffness<T>& hg, double h) {
   const T two = T(2.0), four = T(4.0), zero = T(0.0), half = T(0.5);
   const T inverse_mass = T(1.0) / mass;
   const T a = g.area, a2 = a * a;
@@ -67,8 +67,7 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
   T k;
   if (q.ishell >= 3) {
     const T z2 = g.z2 * g.z2;
-    const T coupling =
-        sqrt((gamma2 + z2 * inverse_inertia) * (gamma2 + four * z2 * p_max * inverse_mass / a2)) * hg.membrane;
+    const T coupling = sqrt((gamma2 + z2 * inverse_inertia) * (gamma2 + four * z2 * p_max * inverse_mass / a2)) * hg.membrane;
     k = max(membrane, out_of_plane) + coupling;
   } else {
     k = max(membrane + hg.membrane * gamma2, out_of_plane);
@@ -90,8 +89,8 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
 
 /// `damping`: sqrt(1 + dm^2) - dm.
 template <class T>
-ABUT_INLINE ShellStep<T> q4_step_reference(const ShellSection& s, const Q4Parameters& q, const Q4Geometry<T>& g, T t,
-                                           T regular, double damping, const Q4HourglassStiffness<T>& hg) {
+ABUT_INLINE ShellStep<T> q4_step_reference(const ShellSection& s, const Q4Parameters& q, const Q4Geometry<T>& g, T t, T regular,
+                                           double damping, const Q4HourglassStiffness<T>& hg) {
   const T l12 = g.x2 * g.x2 + g.y2 * g.y2;
   const T x32 = g.x3 - g.x2, y32 = g.y3 - g.y2, x43 = g.x4 - g.x3, y43 = g.y4 - g.y3, x42 = g.x4 - g.x2, y42 = g.y4 - g.y2;
   const T l23 = x32 * x32 + y32 * y32, l34 = x43 * x43 + y43 * y43, l41 = g.x4 * g.x4 + g.y4 * g.y4;
@@ -108,8 +107,8 @@ ABUT_INLINE ShellStep<T> q4_step_reference(const ShellSection& s, const Q4Parame
   if (q.nodal_step) {
     const T b1 = g.px1 * g.px1 + g.py1 * g.py1, b2 = g.px2 * g.px2 + g.py2 * g.py2;
     const T g1 = g.gamma1 * g.gamma1, g2 = g.gamma2 * g.gamma2, g3 = g.gamma3 * g.gamma3, g4 = g.gamma4 * g.gamma4;
-    out.stiffness = max(b1, b2) * t * T(s.elastic.a11 / (damping * damping)) / g.area +
-                    max(max(g1, g2), max(g3, g4)) * max(hg.membrane, hg.normal);
+    out.stiffness =
+        max(b1, b2) * t * T(s.elastic.a11 / (damping * damping)) / g.area + max(max(g1, g2), max(g3, g4)) * max(hg.membrane, hg.normal);
     out.rotational = out.stiffness * (t * t * T(1.0 / 12.0) + g.area * T(1.0 / 9.0));
   } else {
     out.stiffness = g.area * t * T(0.81 * 0.5 * s.elastic.young / (damping * damping)) / length2;

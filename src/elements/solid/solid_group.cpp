@@ -245,12 +245,14 @@ ElementOutput SolidGroup::output(Index element) const {
   out.pressure = at(element, f_pressure);
   out.bulk_viscosity = at(element, f_viscosity);
   if (config_.law == 2) out.plastic_min = out.plastic_max = at(element, config_.law_field);
-  const double s[6] = {at(element, f_sxx), at(element, f_syy), at(element, f_szz), at(element, f_sxy), at(element, f_syz), at(element, f_szx)};
+  const double s[6] = {at(element, f_sxx), at(element, f_syy), at(element, f_szz),
+                       at(element, f_sxy), at(element, f_syz), at(element, f_szx)};
   out.von_mises = std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
   double t[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
   if (config_.corotational && at(element, config_.frame_field) * at(element, config_.frame_field) +
-                                  at(element, config_.frame_field + 1) * at(element, config_.frame_field + 1) +
-                                  at(element, config_.frame_field + 2) * at(element, config_.frame_field + 2) > 0.0) {
+                                      at(element, config_.frame_field + 1) * at(element, config_.frame_field + 1) +
+                                      at(element, config_.frame_field + 2) * at(element, config_.frame_field + 2) >
+                                  0.0) {
     double global[3][3] = {};
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {

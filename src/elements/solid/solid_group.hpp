@@ -13,9 +13,9 @@ namespace abut::elements {
 
 /// Initial geometry of one element, by its family.
 struct SolidGeometry {
-  double volume = 0.0;               ///< positive for a valid element
-  std::vector<double> frozen;        ///< geometry of cycle 0 for small strain, in the element frame if co-rotational
-  std::vector<double> mass_share;    ///< m_I/m_e per node
+  double volume = 0.0;             ///< positive for a valid element
+  std::vector<double> frozen;      ///< geometry of cycle 0 for small strain, in the element frame if co-rotational
+  std::vector<double> mass_share;  ///< m_I/m_e per node
 };
 
 class SolidGroup : public Group {
@@ -49,16 +49,16 @@ class SolidGroup : public Group {
   [[nodiscard]] double at(Index element, int field) const;
 
   SolidConfig config_;
-  double density_ = 0.0;             ///< rho_i, gives the masses
-  bool reference_part_mass_ = false; ///< small strain: part sums with rho^n V_0 (4.3.4)
+  double density_ = 0.0;              ///< rho_i, gives the masses
+  bool reference_part_mass_ = false;  ///< small strain: part sums with rho^n V_0 (4.3.4)
   int nodes_per_element_ = 0;
-  std::vector<Index> element_nodes_; ///< #E by nodes_per_element, right-handed
+  std::vector<Index> element_nodes_;  ///< #E by nodes_per_element, right-handed
 
  private:
   SolidKernel kernel_ = nullptr;
   std::vector<std::int32_t> block_offsets_;
   std::vector<double> state_;
-  std::vector<double> mass_share_;   ///< #E by nodes_per_element; empty = equal
+  std::vector<double> mass_share_;  ///< #E by nodes_per_element; empty = equal
   std::vector<SolidChunk> chunks_;
 };
 

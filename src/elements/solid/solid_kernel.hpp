@@ -32,13 +32,21 @@ using Vec = simd::Triple<R>;
 using materials::Sym;
 
 template <class R>
-ABUT_INLINE Vec<R> operator+(const Vec<R>& a, const Vec<R>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+ABUT_INLINE Vec<R> operator+(const Vec<R>& a, const Vec<R>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 template <class R>
-ABUT_INLINE Vec<R> operator-(const Vec<R>& a, const Vec<R>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+ABUT_INLINE Vec<R> operator-(const Vec<R>& a, const Vec<R>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 template <class R>
-ABUT_INLINE Vec<R> operator*(R s, const Vec<R>& a) { return {s * a.x, s * a.y, s * a.z}; }
+ABUT_INLINE Vec<R> operator*(R s, const Vec<R>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
 template <class R>
-ABUT_INLINE R dot(const Vec<R>& a, const Vec<R>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+ABUT_INLINE R dot(const Vec<R>& a, const Vec<R>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 template <class R>
 ABUT_INLINE Vec<R> cross(const Vec<R>& a, const Vec<R>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -52,7 +60,9 @@ struct Matrix {
 
 /// A a
 template <class R>
-ABUT_INLINE Vec<R> apply(const Matrix<R>& m, const Vec<R>& a) { return {dot(m.x, a), dot(m.y, a), dot(m.z, a)}; }
+ABUT_INLINE Vec<R> apply(const Matrix<R>& m, const Vec<R>& a) {
+  return {dot(m.x, a), dot(m.y, a), dot(m.z, a)};
+}
 /// A^T a
 template <class R>
 ABUT_INLINE Vec<R> apply_transposed(const Matrix<R>& m, const Vec<R>& a) {
@@ -83,8 +93,11 @@ ABUT_INLINE Sym<R> operator+(const Sym<R>& a, const Sym<R>& b) {
 template <class R>
 ABUT_INLINE Sym<R> jaumann(const Sym<R>& s, const Vec<R>& w) {
   const R two(2.0);
-  return {s.xx + two * (w.y * s.zx - w.z * s.xy), s.yy + two * (w.z * s.xy - w.x * s.yz), s.zz + two * (w.x * s.yz - w.y * s.zx),
-          s.xy + (w.z * (s.xx - s.yy) - w.x * s.zx + w.y * s.yz), s.yz + (w.x * (s.yy - s.zz) - w.y * s.xy + w.z * s.zx),
+  return {s.xx + two * (w.y * s.zx - w.z * s.xy),
+          s.yy + two * (w.z * s.xy - w.x * s.yz),
+          s.zz + two * (w.x * s.yz - w.y * s.zx),
+          s.xy + (w.z * (s.xx - s.yy) - w.x * s.zx + w.y * s.yz),
+          s.yz + (w.x * (s.yy - s.zz) - w.y * s.xy + w.z * s.zx),
           s.zx + (w.y * (s.zz - s.xx) - w.z * s.yz + w.x * s.xy)};
 }
 
@@ -110,16 +123,16 @@ ABUT_INLINE void put_frame(const Lanes<R>& state, int f, const Matrix<R>& e) {
 /// What the kinematics of an element hand to its material point.
 template <class R>
 struct PointInput {
-  Sym<R> d;            ///< rate of deformation
-  Vec<R> spin;         ///< W h; unused when co-rotational
-  R volume;            ///< V, geometric (frozen in small strain)
+  Sym<R> d;     ///< rate of deformation
+  Vec<R> spin;  ///< W h; unused when co-rotational
+  R volume;     ///< V, geometric (frozen in small strain)
   R inverse_volume;
 };
 
 /// What comes back: total stress with viscosity, and what the stability limit needs.
 template <class R>
 struct PointResult {
-  Sym<R> stress;       ///< s - (p + q) 1
+  Sym<R> stress;  ///< s - (p + q) 1
   R density, inverse_length, length, compression, pressure, viscosity;
 };
 
@@ -187,8 +200,7 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
   const R old_pressure = state.get(f_pressure), old_viscosity = state.get(f_viscosity);
   out.pressure = simd::select(present, simd::max(R(c.p_min), R(c.bulk) * mu), old_pressure);
   out.compression = simd::max(zero, -rate);
-  out.viscosity = out.density * out.length * out.compression *
-                  (R(c.qa_squared) * out.length * out.compression + R(c.qb * c.sound));
+  out.viscosity = out.density * out.length * out.compression * (R(c.qa_squared) * out.length * out.compression + R(c.qb * c.sound));
   state.put(f_pressure, out.pressure);
   state.put(f_viscosity, out.viscosity);
 
@@ -281,8 +293,8 @@ struct ChunkSums {
 /// Books the step of these lanes: small-step action, sums, bad elements.
 /// @return 1/dt_e of the lanes that stay live, 0 elsewhere
 template <class R>
-ABUT_INLINE void book(const SolidConfig& c, const Lanes<R>& state, std::int32_t block, int lane, R inverse_step,
-                      decltype(R() > R()) bad, ChunkSums& sums) {
+ABUT_INLINE void book(const SolidConfig& c, const Lanes<R>& state, std::int32_t block, int lane, R inverse_step, decltype(R() > R()) bad,
+                      ChunkSums& sums) {
   using N = simd::NumberTraits<R>;
   const R zero(0.0);
   const R live = state.get(f_live), off = state.get(f_off);
@@ -326,7 +338,8 @@ ABUT_INLINE void finish(const ChunkSums& sums, SolidChunk& chunk) {
     chunk.hourglass += sums.hourglass[l];
     chunk.removed_energy += sums.removed_energy[l];
     const auto e = static_cast<std::int32_t>(sums.where[l]) * 8 + l;
-    if (sums.inverse_step[l] > chunk.inverse_step || (sums.inverse_step[l] == chunk.inverse_step && sums.inverse_step[l] > 0.0 && e < chunk.step_element)) {
+    if (sums.inverse_step[l] > chunk.inverse_step ||
+        (sums.inverse_step[l] == chunk.inverse_step && sums.inverse_step[l] > 0.0 && e < chunk.step_element)) {
       chunk.inverse_step = sums.inverse_step[l];
       chunk.step_element = e;
     }

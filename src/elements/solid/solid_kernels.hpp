@@ -21,18 +21,24 @@ void tetra4(const SolidTask& task);
 
 [[nodiscard]] inline SolidKernel brick8_kernel(simd::Isa isa) {
   switch (isa) {
-    case simd::Isa::sse2: return sse2::brick8;
-    case simd::Isa::avx2: return avx2::brick8;
-    case simd::Isa::avx512: return avx512::brick8;
+    case simd::Isa::sse2:
+      return sse2::brick8;
+    case simd::Isa::avx2:
+      return avx2::brick8;
+    case simd::Isa::avx512:
+      return avx512::brick8;
   }
   return sse2::brick8;
 }
 
 [[nodiscard]] inline SolidKernel tetra4_kernel(simd::Isa isa) {
   switch (isa) {
-    case simd::Isa::sse2: return sse2::tetra4;
-    case simd::Isa::avx2: return avx2::tetra4;
-    case simd::Isa::avx512: return avx512::tetra4;
+    case simd::Isa::sse2:
+      return sse2::tetra4;
+    case simd::Isa::avx2:
+      return avx2::tetra4;
+    case simd::Isa::avx512:
+      return avx512::tetra4;
   }
   return sse2::tetra4;
 }

@@ -10,18 +10,23 @@ namespace abut::elements {
 
 /// State of a block: `Field` f of lane l is state[(block * fields + f) * 8 + l]. Optional fields follow `common_fields`.
 enum SolidField : int {
-  f_sxx, f_syy, f_szz, f_sxy, f_syz, f_szx,  ///< stress deviator (in the element frame when co-rotational)
-  f_pressure,          ///< p of the law
-  f_viscosity,         ///< q, bulk viscous pressure
-  f_volume,            ///< V at the last step; the frozen volume in small strain
-  f_inverse_length,    ///< V^(-1/3)
-  f_density,           ///< rho at the last step in small strain; else m_e/V counts
-  f_energy,            ///< internal energy
-  f_hourglass,         ///< hourglass energy
-  f_off,               ///< 1 active, 0 deleted
-  f_live,              ///< 1 takes part in the step, 0 deleted, rigid or padding
-  f_mass,              ///< m_e
-  f_inverse_mass,      ///< 1/m_e
+  f_sxx,
+  f_syy,
+  f_szz,
+  f_sxy,
+  f_syz,
+  f_szx,             ///< stress deviator (in the element frame when co-rotational)
+  f_pressure,        ///< p of the law
+  f_viscosity,       ///< q, bulk viscous pressure
+  f_volume,          ///< V at the last step; the frozen volume in small strain
+  f_inverse_length,  ///< V^(-1/3)
+  f_density,         ///< rho at the last step in small strain; else m_e/V counts
+  f_energy,          ///< internal energy
+  f_hourglass,       ///< hourglass energy
+  f_off,             ///< 1 active, 0 deleted
+  f_live,            ///< 1 takes part in the step, 0 deleted, rigid or padding
+  f_mass,            ///< m_e
+  f_inverse_mass,    ///< 1/m_e
   common_fields
 };
 
@@ -35,33 +40,33 @@ struct SolidConfig {
   double rho_0 = 0.0, bulk = 0.0, shear = 0.0, sound = 0.0, p_min = -1e20;
   materials::JohnsonCook plastic;
   double qa_squared = 0.0, qb = 0.0, hourglass = 0.0;
-  bool corotational = false;          ///< Iframe 2 (bricks)
-  bool orthogonal_hourglass = true;   ///< Isolid 1
-  bool small_strain = false;          ///< Ismstr 1
+  bool corotational = false;         ///< Iframe 2 (bricks)
+  bool orthogonal_hourglass = true;  ///< Isolid 1
+  bool small_strain = false;         ///< Ismstr 1
   bool reference_step = false;
   bool trapezoidal_hourglass = true;
-  bool literal_spin = false;          ///< TETRA4: spin with the reference's second-order terms
+  bool literal_spin = false;  ///< TETRA4: spin with the reference's second-order terms
   double step_scale = 0.9, step_minimum = 0.0;
   bool remove_small_step = false;
-  int fields = common_fields;         ///< per block
+  int fields = common_fields;                                                              ///< per block
   int law_field = 0, force_field = 0, frozen_field = 0, frame_field = 0, share_field = 0;  ///< first optional field of each kind
 };
 
 /// Fixed-order result of a chunk of blocks.
 struct SolidChunk {
   double energy = 0.0, hourglass = 0.0, removed_energy = 0.0;
-  double inverse_step = 0.0;          ///< largest 1/dt_e of the live elements
+  double inverse_step = 0.0;  ///< largest 1/dt_e of the live elements
   std::int32_t step_element = -1, bad_element = -1, removed = 0;
 };
 
 /// Arguments of a kernel: steps blocks [first, last).
 struct SolidTask {
   const SolidConfig* config = nullptr;
-  const double* x = nullptr;          ///< #N by 3 positions at t^n
-  const double* v = nullptr;          ///< #N by 3 velocities at n - 1/2
-  const std::int32_t* offsets = nullptr;///< 3 * node at (block * nodes_per_element + k) * 8 + l
+  const double* x = nullptr;              ///< #N by 3 positions at t^n
+  const double* v = nullptr;              ///< #N by 3 velocities at n - 1/2
+  const std::int32_t* offsets = nullptr;  ///< 3 * node at (block * nodes_per_element + k) * 8 + l
   double* state = nullptr;
-  double* slots = nullptr;            ///< layout of SlotLayout, 4 components
+  double* slots = nullptr;  ///< layout of SlotLayout, 4 components
   double dt = 0.0;
   std::int32_t first = 0, last = 0;
   SolidChunk* chunk = nullptr;

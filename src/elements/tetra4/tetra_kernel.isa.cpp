@@ -1,4 +1,5 @@
 #include "elements/tetra4/tetra_kernel.hpp"
+
 #include "simd/isa_object.hpp"
 
 namespace abut::elements::ABUT_ISA {

@@ -1,7 +1,7 @@
 // No energy from switching, edges, borders or changes of stiffness (issue 3, section 2).
-#include <abut/contact/interface.hpp>
 #include <gtest/gtest.h>
 
+#include <abut/contact/interface.hpp>
 #include <cstdio>
 #include <random>
 
@@ -86,8 +86,8 @@ TEST(Switching, bounce_keeps_its_energy) {
       for (const double free_mass : {0.0, 3.0}) {
         const Bounce with = bounces(Rules::standard(), gap, hhk, free_mass);
         const Bounce without = bounces(plain_switch, gap, hhk, free_mass);
-        std::printf("  gap %.2f h2K/m %.2f facet mass %.0f: |CX| mean %.4f %% worst %.4f %%, without correction %.4f %% and %.4f %%\n", gap, hhk,
-                    free_mass, 100 * with.mean, 100 * with.worst, 100 * without.mean, 100 * without.worst);
+        std::printf("  gap %.2f h2K/m %.2f facet mass %.0f: |CX| mean %.4f %% worst %.4f %%, without correction %.4f %% and %.4f %%\n", gap,
+                    hhk, free_mass, 100 * with.mean, 100 * with.worst, 100 * without.mean, 100 * without.worst);
         EXPECT_LT(with.mean, gap > 0.0 ? 0.002 : 1e-7);
         EXPECT_LT(with.worst, 0.015);
       }
@@ -108,7 +108,8 @@ Bounce plates_meet(Rules rules, double gap, double hhk, double shift) {
     const auto lower = grid(host, 4, 4, -2, 2, -2, 2, flat, true, false, 1.0);
     const std::size_t first = host.x.size();
     const double start = gap + 2 * speed * h * (2.0 + uniform(random));
-    const auto upper = grid(host, 4, 4, -2 + shift, 2 + shift, -2, 2, [&](double, double) { return start; }, false, false, 1.0);
+    const auto upper = grid(
+        host, 4, 4, -2 + shift, 2 + shift, -2, 2, [&](double, double) { return start; }, false, false, 1.0);
     for (std::size_t n = 0; n < host.x.size(); ++n) host.v[n].z = n < first ? speed : -speed;
     Options o;
     o.rules = rules;
@@ -138,8 +139,8 @@ TEST(Switching, plates_keep_their_energy) {
       for (const double shift : {0.0, 0.37}) {
         const Bounce with = plates_meet(Rules::standard(), gap, hhk, shift);
         const Bounce without = plates_meet(plain_switch, gap, hhk, shift);
-        std::printf("  gap %.2f h2K/m %.2f shift %.2f: |CX| mean %.4f %% worst %.4f %%, without correction %.4f %% and %.4f %%\n", gap, hhk, shift,
-                    100 * with.mean, 100 * with.worst, 100 * without.mean, 100 * without.worst);
+        std::printf("  gap %.2f h2K/m %.2f shift %.2f: |CX| mean %.4f %% worst %.4f %%, without correction %.4f %% and %.4f %%\n", gap, hhk,
+                    shift, 100 * with.mean, 100 * with.worst, 100 * without.mean, 100 * without.worst);
         // 0.5 is beyond what the step rule allows here (four springs act on each relative motion); 0.2 is at its limit.
         EXPECT_LT(with.mean, hhk > 0.2 ? 0.007 : 0.002);
       }
@@ -202,7 +203,8 @@ TEST(ClosedPath, gives_its_work_back) {
       cases.push_back({name, [angle, convex](double x, double) { return fold_height(x, angle, convex); }, false, 0.1, 0.05, 1.2, 0.9});
     }
   }
-  cases.push_back({"fold 45 convex, over the border", [](double x, double) { return fold_height(x, 45.0, true); }, false, 0.1, 1.8, 1.2, 0.9});
+  cases.push_back(
+      {"fold 45 convex, over the border", [](double x, double) { return fold_height(x, 45.0, true); }, false, 0.1, 1.8, 1.2, 0.9});
   cases.push_back({"saddle", [](double x, double y) { return 0.1 * x * x - 0.1 * y * y; }, false, 0.1, 0.05, 1.2, 0.9});
   // On an inward fold the contact point jumps along the surface, and with it an interpolated stiffness: what is left of the
   // energy jump there is of second order (fold angle x change of stiffness), measured and bounded here.
@@ -238,8 +240,8 @@ TEST(ClosedPath, gives_its_work_back) {
           const Path ours = lap(standard, gap, facets, stiffness, host, where, steps);
           const Path theirs = lap(plain, gap, facets, stiffness, host, where, steps / 8);
           const double net = ours.net / ours.largest;
-          std::printf("  %-34s gap %.1f P %.2f %s: net/CE %.2e (plain %.2e)\n", c.name, gap, p, law == Law::constant ? "const" : "stiff", net,
-                      theirs.largest > 0 ? theirs.net / theirs.largest : 0.0);
+          std::printf("  %-34s gap %.1f P %.2f %s: net/CE %.2e (plain %.2e)\n", c.name, gap, p, law == Law::constant ? "const" : "stiff",
+                      net, theirs.largest > 0 ? theirs.net / theirs.largest : 0.0);
           const bool both = &c == &cases.back();
           if (!both) worst = std::max(worst, net);
           EXPECT_GT(ours.largest, 0.0);

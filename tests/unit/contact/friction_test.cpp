@@ -1,11 +1,12 @@
 // Friction: objective, dissipative, carried from facet to facet (T19..T23; issue 3, section 3).
-#include <abut/contact/interface.hpp>
+#include "contact/enforce/friction.hpp"
+
 #include <gtest/gtest.h>
 
+#include <abut/contact/interface.hpp>
 #include <cstdio>
 #include <random>
 
-#include "contact/enforce/friction.hpp"
 #include "unit/contact/bench_host.hpp"
 
 namespace abut::contact {
@@ -151,7 +152,8 @@ TEST(Friction, block_slides_to_rest) {
   Host host;
   const auto main = grid(host, 40, 4, -1, 9, -1, 1, flat);
   const std::size_t first = host.x.size();
-  const auto block = grid(host, 3, 3, 0.0, 0.6, -0.3, 0.3, [](double, double) { return -1e-3; }, false, false, 1.0);
+  const auto block = grid(
+      host, 3, 3, 0.0, 0.6, -0.3, 0.3, [](double, double) { return -1e-3; }, false, false, 1.0);
   Options o;
   o.friction = 0.3;
   o.stiffness_scale = 1.0;
@@ -171,7 +173,8 @@ TEST(Friction, block_slides_to_rest) {
   }
   double left = 0.0;
   for (std::size_t n = first; n < host.x.size(); ++n) left += 0.5 * (host.v[n].x * host.v[n].x + host.v[n].y * host.v[n].y);
-  std::printf("  kinetic %.4f -> %.2e, FW %.4f, CX %.2e, CE %.2e\n", kinetic, left, host.last.friction_work, host.last.made, host.last.elastic);
+  std::printf("  kinetic %.4f -> %.2e, FW %.4f, CX %.2e, CE %.2e\n", kinetic, left, host.last.friction_work, host.last.made,
+              host.last.elastic);
   EXPECT_NEAR(host.last.friction_work, kinetic, 0.02 * kinetic);
   EXPECT_LT(std::abs(host.last.made), 0.002 * kinetic);
 }

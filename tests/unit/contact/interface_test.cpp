@@ -1,6 +1,7 @@
 // Forces, friction, energies of one-sided interfaces through the public API.
-#include <abut/contact/interface.hpp>
 #include <gtest/gtest.h>
+
+#include <abut/contact/interface.hpp>
 
 #include "unit/contact/bench_host.hpp"
 
@@ -213,9 +214,11 @@ TwoPlates two_plates(double overlap, unsigned seed, bool triangles = false) {
   TwoPlates p;
   const auto noise = [seed](double x, double y) { return 0.01 * std::sin(13.0 * x + 7.0 * y + seed); };
   p.lower = grid(p.host, 7, 6, 0.0, 1.4, 0.0, 1.2, noise, true, false, 1.0);
-  p.upper = grid(p.host, 5, 5, 0.13, 1.25, 0.07, 1.1, [&](double x, double y) { return noise(y, x) - overlap; }, false, triangles, 1.0);
+  p.upper = grid(
+      p.host, 5, 5, 0.13, 1.25, 0.07, 1.1, [&](double x, double y) { return noise(y, x) - overlap; }, false, triangles, 1.0);
   for (std::size_t i = 0; i < p.host.x.size(); ++i) {
-    p.host.v[i] = {0.3 * std::sin(3.0 * static_cast<double>(i)), 0.2 * std::cos(5.0 * static_cast<double>(i)), 0.1 * std::sin(static_cast<double>(i))};
+    p.host.v[i] = {0.3 * std::sin(3.0 * static_cast<double>(i)), 0.2 * std::cos(5.0 * static_cast<double>(i)),
+                   0.1 * std::sin(static_cast<double>(i))};
   }
   return p;
 }
@@ -292,9 +295,7 @@ TEST(TwoSurfaces, forces_and_moments_balance) {
         }
         ASSERT_GT(size, 0.0);
         EXPECT_LT(norm(sum), 1e-13 * size);
-        if (friction == 0.0 && rules.edges == Edges::closest) {
-          EXPECT_LT(norm(moment), 1e-13 * size);
-        }
+        if (friction == 0.0 && rules.edges == Edges::closest) { EXPECT_LT(norm(moment), 1e-13 * size); }
         p.host.step(a, 0.01);
       }
     }
@@ -308,9 +309,7 @@ TEST(TwoSurfaces, shared_nodes_are_refused) {
   try {
     (void)Interface::two_surfaces(Surface({facets[0]}), Surface({facets[1]}), {});
     FAIL();
-  } catch (const std::invalid_argument& e) {
-    EXPECT_STREQ(e.what(), "contact: 2 nodes lie on both surfaces: 1, 4");
-  }
+  } catch (const std::invalid_argument& e) { EXPECT_STREQ(e.what(), "contact: 2 nodes lie on both surfaces: 1, 4"); }
 }
 
 // A history blob taken in the middle of a run continues it bit for bit; damaged ones are refused.

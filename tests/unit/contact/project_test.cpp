@@ -26,7 +26,8 @@ std::vector<std::pair<const char*, Patch>> nasty() {
   all.push_back({"dart", {{Vec3{0, 0, 0}, Vec3{1, -1, 0}, Vec3{0.3, 0, 0}, Vec3{1, 1, 0}}}});
   all.push_back({"nearly a triangle", {{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{1 - 1e-7, 1, 0}}}});
   all.push_back({"collinear corner", {{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{2, 0, 0}, Vec3{1, 1, 0}}}});
-  all.push_back({"far from the origin", {{Vec3{1e4, 1e4, 1e4}, Vec3{1e4 + 1, 1e4, 1e4}, Vec3{1e4 + 1, 1e4 + 1, 1e4 + 0.2}, Vec3{1e4, 1e4 + 1, 1e4}}}});
+  all.push_back({"far from the origin",
+                 {{Vec3{1e4, 1e4, 1e4}, Vec3{1e4 + 1, 1e4, 1e4}, Vec3{1e4 + 1, 1e4 + 1, 1e4 + 0.2}, Vec3{1e4, 1e4 + 1, 1e4}}}});
   all.push_back({"tiny", {{Vec3{0, 0, 0}, Vec3{1e-9, 0, 0}, Vec3{1e-9, 1e-9, 2e-10}, Vec3{0, 1e-9, 0}}}});
   all.push_back({"triangle", {{Vec3{0, 0, 0}, Vec3{1, 0, 0.2}, Vec3{0.3, 1, 0}, Vec3{0.3, 1, 0}}, true}});
   all.push_back({"sliver", {{Vec3{0, 0, 0}, Vec3{10, 0, 0}, Vec3{5, 1e-3, 0}, Vec3{5, 1e-3, 0}}, true}});
@@ -74,9 +75,7 @@ TEST(ClosestPoint, beats_sampling_and_is_stationary) {
           const Vec3 r = x - c.point;
           for (const Vec3& a : tangent) {
             const double scale = norm(a);
-            if (scale > 1e-6 * size) {
-              ASSERT_LT(std::abs(dot(r, a)) / scale, 1e-12 * (size + distance + norm(centre))) << name;
-            }
+            if (scale > 1e-6 * size) { ASSERT_LT(std::abs(dot(r, a)) / scale, 1e-12 * (size + distance + norm(centre))) << name; }
           }
         }
         double sum = 0;

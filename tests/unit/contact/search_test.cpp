@@ -69,11 +69,13 @@ TEST(Search, equals_brute_force) {
           const Vec3 slide{step % 5 == 0 ? 0.4 : 0.003, -0.002, 0.001};
           for (std::size_t i = 0; i < host.x.size(); ++i) {
             host.x[i] = rotate(host.x[i], axis, turn) + Vec3{0.05, 0.02, -0.01};
-            if (i >= first_held) host.x[i] += (step % 10 < 5 ? 1.0 : -1.0) * slide + 0.004 * Vec3{u(random) - 0.5, u(random) - 0.5, u(random) - 0.5};
+            if (i >= first_held)
+              host.x[i] += (step % 10 < 5 ? 1.0 : -1.0) * slide + 0.004 * Vec3{u(random) - 0.5, u(random) - 0.5, u(random) - 0.5};
           }
           surface.gather(host.x);
           held.gather(host.x);
-          lists.update(held, surface, [reach](Index) { return reach; }, 0.08, false);
+          lists.update(
+              held, surface, [reach](Index) { return reach; }, 0.08, false);
           for (Index i = 0; i < held.node_count(); ++i) {
             const Vec3 x = held.x()[at(i)];
             const Measure truth = brute_force(surface, x);
@@ -82,7 +84,8 @@ TEST(Search, equals_brute_force) {
             if (std::abs(truth.distance) > reach) continue;
             if (!found.found() || found.distance != truth.distance || found.normal != truth.normal) {
               // The same distance from another facet (a shared edge) is the same answer to rounding.
-              const bool same = found.found() && std::abs(found.distance - truth.distance) < 1e-13 && norm(found.closest.point - truth.closest.point) < 1e-7;
+              const bool same = found.found() && std::abs(found.distance - truth.distance) < 1e-13 &&
+                                norm(found.closest.point - truth.closest.point) < 1e-7;
               if (!same) ++wrong;
             }
           }
@@ -173,9 +176,10 @@ Shots shoot(double curvature, int count, unsigned seed) {
 TEST(Swept, fast_projectiles_end_in_front) {
   const Shots flat = shoot(0.0, 200, 21);
   const Shots curved = shoot(0.01, 200, 22);
-  std::printf("  flat: %d shots, %d caught by the swept test, %d behind, worst |CX| %.3f %% of the kinetic energy\n", flat.count, flat.caught,
-              flat.behind, 100 * flat.worst);
-  std::printf("  curved: %d shots, %d caught, %d behind, worst |CX| %.3f %%\n", curved.count, curved.caught, curved.behind, 100 * curved.worst);
+  std::printf("  flat: %d shots, %d caught by the swept test, %d behind, worst |CX| %.3f %% of the kinetic energy\n", flat.count,
+              flat.caught, flat.behind, 100 * flat.worst);
+  std::printf("  curved: %d shots, %d caught, %d behind, worst |CX| %.3f %%\n", curved.count, curved.caught, curved.behind,
+              100 * curved.worst);
   EXPECT_EQ(flat.behind, 0);
   EXPECT_EQ(curved.behind, 0);
   EXPECT_GT(flat.caught, 0);

@@ -1,8 +1,8 @@
 // The nodal stiffness that an interface hands over bounds the largest eigenvalue of its stiffness matrix: h <= sqrt(2 m/K) is stable
 // (numerics.md 2.3, T12; issue 3, section 3).
-#include <abut/contact/interface.hpp>
 #include <gtest/gtest.h>
 
+#include <abut/contact/interface.hpp>
 #include <cstdio>
 #include <random>
 
@@ -58,7 +58,8 @@ TEST(Stability, nodal_stiffness_bounds_the_largest_eigenvalue) {
           std::uniform_real_distribution<double> u(0.0, 1.0);
           const auto rough = [&](double, double) { return 0.01 * (u(random) - 0.5); };
           const auto lower = grid(host, 3, 3, -1.5, 1.5, -1.5, 1.5, rough);
-          const auto upper = grid(host, 2, 2, -0.9, 1.0, -1.0, 0.9, [&](double x, double y) { return gap - overlap + rough(x, y); }, false, seed == 3);
+          const auto upper = grid(
+              host, 2, 2, -0.9, 1.0, -1.0, 0.9, [&](double x, double y) { return gap - overlap + rough(x, y); }, false, seed == 3);
           for (double& m : host.m) m = 0.5 + u(random);
           for (std::size_t i = 0; i < host.x.size(); ++i) host.v[i] = 1e-9 * Vec3{u(random), u(random), u(random)};
           Options o;

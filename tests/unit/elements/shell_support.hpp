@@ -88,8 +88,10 @@ struct ShellModel {
   void single(const std::vector<Vec3>& x) {
     std::vector<Index> n;
     for (const Vec3& p : x) n.push_back(node(p));
-    if (x.size() == 4) quad(n[0], n[1], n[2], n[3]);
-    else triangle(n[0], n[1], n[2]);
+    if (x.size() == 4)
+      quad(n[0], n[1], n[2], n[3]);
+    else
+      triangle(n[0], n[1], n[2]);
   }
 };
 

@@ -17,16 +17,17 @@ namespace abut::elements::test {
 inline model::LawElastic steel() { return {210.0, 0.3}; }
 
 /// Corners of the cube [0,1]^3 in the order of numerics.md 0.5 (xi, eta, zeta = x, y, z).
-inline std::vector<Vec3> unit_cube() {
-  return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-}
+inline std::vector<Vec3> unit_cube() { return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}; }
 
 /// Deterministic uniform numbers in [-1, 1].
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
   double operator()() { return 2.0 * static_cast<double>(engine_()) / 4294967295.0 - 1.0; }
-  Vec3 vec() { const double a = (*this)(), b = (*this)(), c = (*this)(); return {a, b, c}; }
+  Vec3 vec() {
+    const double a = (*this)(), b = (*this)(), c = (*this)();
+    return {a, b, c};
+  }
 
  private:
   std::mt19937 engine_;

@@ -40,7 +40,8 @@ void drive(SolidBody& body, Field field, int steps, double duration = 1.0) {
 TEST(BrickLaw1, HydrostaticPressureFromVolume) {
   for (const double e : {-0.3, -0.01, 0.2}) {
     SolidBody body(unit_cube(), one, without_viscosity());
-    drive(body, [e](const Vec3& x) { return e * x; }, 7);
+    drive(
+        body, [e](const Vec3& x) { return e * x; }, 7);
     const double v = std::pow(1 + e, 3);
     EXPECT_NEAR(body.output().pressure, bulk * (1 / v - 1), 1e-12 * bulk);
     EXPECT_NEAR(body.output().volume, v, 1e-14);
@@ -56,7 +57,12 @@ TEST(BrickLaw1, SmallShear) {
     SolidSetup s = without_viscosity();
     s.property.iframe = iframe;
     SolidBody body(unit_cube(), one, s);
-    drive(body, [gamma](const Vec3& x) { return Vec3{gamma * x.y, 0, 0}; }, 10);
+    drive(
+        body,
+        [gamma](const Vec3& x) {
+          return Vec3{gamma * x.y, 0, 0};
+        },
+        10);
     EXPECT_NEAR(body.output().stress[3], shear * gamma, 2 * gamma * shear * gamma);
     EXPECT_NEAR(body.result.internal_energy, 0.5 * shear * gamma * gamma, 2 * gamma * shear * gamma * gamma);
   }
@@ -66,7 +72,12 @@ TEST(BrickLaw1, SmallShear) {
 TEST(BrickLaw1, UniaxialStrain) {
   const double e = 1e-6;
   SolidBody body(unit_cube(), one, without_viscosity());
-  drive(body, [e](const Vec3& x) { return Vec3{e * x.x, 0, 0}; }, 4);
+  drive(
+      body,
+      [e](const Vec3& x) {
+        return Vec3{e * x.x, 0, 0};
+      },
+      4);
   EXPECT_NEAR(body.output().stress[0], (bulk + 4 * shear / 3) * e, 3 * e * e * young);
   EXPECT_NEAR(body.output().stress[1], (bulk - 2 * shear / 3) * e, 3 * e * e * young);
 }
@@ -108,7 +119,8 @@ TEST(BrickEnergy, PressureWorkIsTrapezoidal) {
   SolidBody body(unit_cube(), one, without_viscosity());
   const int steps = 5;
   const double e = -0.2;
-  drive(body, [e](const Vec3& x) { return e * x; }, steps);
+  drive(
+      body, [e](const Vec3& x) { return e * x; }, steps);
   double expected = 0.0, v_old = 1.0;
   for (int i = 1; i <= steps; ++i) {
     const double v = std::pow(1 + e * i / steps, 3);
@@ -139,7 +151,9 @@ TEST(BrickEnergy, Law2UsesTotalStress) {
   s2.law = plastic(1e3);
   const double e = 0.1;
   SolidBody b1(unit_cube(), one, s1), b2(unit_cube(), one, s2);
-  for (SolidBody* b : {&b1, &b2}) drive(*b, [e](const Vec3& x) { return e * x; }, 1);
+  for (SolidBody* b : {&b1, &b2})
+    drive(
+        *b, [e](const Vec3& x) { return e * x; }, 1);
   const double v = std::pow(1 + e, 3), p = bulk * (1 / v - 1);
   EXPECT_NEAR(b1.result.internal_energy, -0.5 * p * (v - 1), 1e-12);
   EXPECT_NEAR(b2.result.internal_energy, -0.5 * p * (3 * e / (1 + e)) * 0.5 * (1 + v), 1e-12);
@@ -151,7 +165,12 @@ TEST(BrickLaw2, UniaxialStrainPerfectPlasticity) {
   s.law = plastic(0.4);
   SolidBody body(unit_cube(), one, s);
   const double e = -0.02;
-  drive(body, [e](const Vec3& x) { return Vec3{e * x.x, 0, 0}; }, 100);
+  drive(
+      body,
+      [e](const Vec3& x) {
+        return Vec3{e * x.x, 0, 0};
+      },
+      100);
   const double p = bulk * (1 / (1 + e) - 1);
   EXPECT_NEAR(body.output().stress[0], -p - 2.0 / 3.0 * 0.4, 1e-12);
   EXPECT_NEAR(body.output().stress[1], -p + 1.0 / 3.0 * 0.4, 1e-12);
@@ -166,7 +185,12 @@ TEST(BrickLaw2, ShearLinearHardening) {
   const double a = 4e-4, b = 2.0, gamma = 5e-5;
   s.law = plastic(a, b, 1.0);
   SolidBody body(unit_cube(), one, s);
-  drive(body, [gamma](const Vec3& x) { return Vec3{gamma * x.y, 0, 0}; }, 20);
+  drive(
+      body,
+      [gamma](const Vec3& x) {
+        return Vec3{gamma * x.y, 0, 0};
+      },
+      20);
   const double root = std::sqrt(3.0), ep = (gamma - a / (root * shear)) / (root + b / (root * shear));
   EXPECT_NEAR(body.output().plastic_max, ep, 1e-4 * ep);
   EXPECT_NEAR(body.output().stress[3], (a + b * ep) / root, 1e-4 * a);
@@ -179,7 +203,12 @@ TEST(BrickLaw2, PowerHardeningConverges) {
     SolidSetup s = without_viscosity();
     s.law = plastic(0.3, 0.5, 0.4);
     SolidBody body(unit_cube(), one, s);
-    drive(body, [](const Vec3& x) { return Vec3{0.05 * x.x, -0.025 * x.y, -0.025 * x.z}; }, level == 0 ? 200 : 800);
+    drive(
+        body,
+        [](const Vec3& x) {
+          return Vec3{0.05 * x.x, -0.025 * x.y, -0.025 * x.z};
+        },
+        level == 0 ? 200 : 800);
     const double ep = body.output().plastic_max;
     error[level] = std::abs(body.output().von_mises - (0.3 + 0.5 * std::pow(ep, 0.4)));
   }
@@ -220,7 +249,12 @@ TEST(BrickLaw2, StressCap) {
   law.sigma_max = 0.35;
   s.law = law;
   SolidBody body(unit_cube(), one, s);
-  drive(body, [](const Vec3& x) { return Vec3{0.1 * x.x, -0.05 * x.y, -0.05 * x.z}; }, 200);
+  drive(
+      body,
+      [](const Vec3& x) {
+        return Vec3{0.1 * x.x, -0.05 * x.y, -0.05 * x.z};
+      },
+      200);
   EXPECT_GT(body.output().plastic_max, 0.01);
   EXPECT_NEAR(body.output().von_mises, 0.35, 1e-12);
 }
@@ -283,7 +317,12 @@ TEST(BrickLaw2, AdiabaticHeating) {
   law.m = 1.0;
   s.law = law;
   SolidBody body(unit_cube(), one, s);
-  drive(body, [](const Vec3& x) { return Vec3{0.2 * x.x, -0.1 * x.y, -0.1 * x.z}; }, 4000);
+  drive(
+      body,
+      [](const Vec3& x) {
+        return Vec3{0.2 * x.x, -0.1 * x.y, -0.1 * x.z};
+      },
+      4000);
   // dT* = Y dep/(rho C_p (T_melt - T_r)): Y = a exp(-a ep/(rho C_p dT)).
   const double ep = body.output().plastic_max;
   EXPECT_NEAR(body.output().von_mises, 0.3 * std::exp(-0.3 * ep / (1e-3 * 1000.0)), 1e-5);
@@ -297,7 +336,12 @@ TEST(BrickLaw2, FailureStrainKeepsPressure) {
   law.eps_max = 0.01;
   s.law = law;
   SolidBody body(unit_cube(), one, s);
-  drive(body, [](const Vec3& x) { return Vec3{-0.05 * x.x, 0, 0}; }, 50);
+  drive(
+      body,
+      [](const Vec3& x) {
+        return Vec3{-0.05 * x.x, 0, 0};
+      },
+      50);
   EXPECT_GT(body.output().plastic_max, 0.01);
   EXPECT_EQ(body.output().von_mises, 0.0);
   EXPECT_NEAR(body.output().pressure, bulk * (1 / 0.95 - 1), 1e-10);
@@ -314,7 +358,8 @@ TEST(BrickLaw2, PressureCutOff) {
   law.p_min = -0.5;
   s.law = law;
   SolidBody body(unit_cube(), one, s);
-  drive(body, [](const Vec3& x) { return 0.05 * x; }, 10);
+  drive(
+      body, [](const Vec3& x) { return 0.05 * x; }, 10);
   EXPECT_DOUBLE_EQ(body.output().pressure, -0.5);
 }
 
@@ -327,7 +372,12 @@ TEST(BrickSmallStrain, FrozenGeometry) {
   SolidBody body(unit_cube(), one, s);
   const double step = body.step(0.0).step;
   const double e = -0.1;
-  drive(body, [e](const Vec3& x) { return Vec3{e * x.x, 0, 0}; }, 1000);
+  drive(
+      body,
+      [e](const Vec3& x) {
+        return Vec3{e * x.x, 0, 0};
+      },
+      1000);
   // Frozen gradients: tr D h = e/1000 (minus the second-order term 1/2 (e/1000)^2) in every step, without ln(1 + e).
   const double strain = 1000 * (e / 1000 - 0.5 * e * e / 1e6);
   EXPECT_NEAR(body.output().density, 7.8 * (1 - strain), 1e-12);
@@ -337,8 +387,8 @@ TEST(BrickSmallStrain, FrozenGeometry) {
   EXPECT_NEAR(body.group->part_sums(body.v, body.v).mass, 7.8 * (1 - strain), 1e-12);
 }
 
-// ... and turns with the element: after a rigid turn of an unstrained element by 1 radian, loading gives the turned stress. (Once strained, a
-// turn by theta adds a strain error of order strain x theta: the frozen gradients meet the velocities of the deformed shape.)
+// ... and turns with the element: after a rigid turn of an unstrained element by 1 radian, loading gives the turned stress. (Once strained,
+// a turn by theta adds a strain error of order strain x theta: the frozen gradients meet the velocities of the deformed shape.)
 TEST(BrickSmallStrain, CorotationalFrameTurns) {
   SolidSetup s = without_viscosity();
   s.property.ismstr = 1;

@@ -197,8 +197,10 @@ TEST_P(EnergyBalance, SimplySupportedPlateFrequency) {
     const double u = r.x[centre].z;
     if (c > 0 && u * last < 0.0) {
       const double time = h * (c + 1 - u / (u - last));
-      if (first_zero < 0.0) first_zero = time;
-      else ++zeros;
+      if (first_zero < 0.0)
+        first_zero = time;
+      else
+        ++zeros;
       last_zero = time;
     }
     last = u;
@@ -406,8 +408,10 @@ Arrays run_header(int form, int iplas, bool bound, int steps) {
   Arrays a(form, law, iplas, bound);
   for (int n = 0; n < steps; ++n) {
     const ShellKernelArgs args = a.args();
-    if (form <= 4) q4_blocks<T, law>(args, a.q, 0.95, 0, Arrays::blocks);
-    else c0_blocks<T, law>(args, a.c, 0.95, 0, Arrays::blocks);
+    if (form <= 4)
+      q4_blocks<T, law>(args, a.q, 0.95, 0, Arrays::blocks);
+    else
+      c0_blocks<T, law>(args, a.c, 0.95, 0, Arrays::blocks);
     a.move();
   }
   return a;

@@ -163,8 +163,7 @@ struct Patch {
   ShellModel s;
   std::vector<std::size_t> inner{4, 5, 6, 7};
   Matrix3 turn = rotation({0.2, 0.9, -0.4}, 0.8);
-  std::vector<Vec3> flat{{0, 0, 0},      {1, 0, 0},      {1, 1, 0},      {0, 1, 0},
-                         {0.2, 0.25, 0}, {0.75, 0.2, 0}, {0.7, 0.65, 0}, {0.3, 0.8, 0}};
+  std::vector<Vec3> flat{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.2, 0.25, 0}, {0.75, 0.2, 0}, {0.7, 0.65, 0}, {0.3, 0.8, 0}};
   explicit Patch(int form) : s(make(form)) {
     for (const Vec3& p : flat) s.node(turn * p);
     const int e[5][4] = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
@@ -195,8 +194,8 @@ TEST_P(EveryForm, MembranePatch) {
   for (Index e = 0; e < r.group->size(); ++e) {
     const ElementOutput o = r.group->output(e);
     // The stress tensor in the axes of the patch, from global components.
-    const Vec3 rows[3] = {{o.stress[0], o.stress[3], o.stress[5]}, {o.stress[3], o.stress[1], o.stress[4]},
-                          {o.stress[5], o.stress[4], o.stress[2]}};
+    const Vec3 rows[3] = {
+        {o.stress[0], o.stress[3], o.stress[5]}, {o.stress[3], o.stress[1], o.stress[4]}, {o.stress[5], o.stress[4], o.stress[2]}};
     const Vec3 e1 = p.turn * Vec3{1, 0, 0}, e2 = p.turn * Vec3{0, 1, 0};
     const auto along = [&](const Vec3& a, const Vec3& b) { return dot(a, Vec3{dot(rows[0], b), dot(rows[1], b), dot(rows[2], b)}); };
     EXPECT_NEAR(along(e1, e1), sxx, 1e-6 * std::abs(sxx));
@@ -207,9 +206,7 @@ TEST_P(EveryForm, MembranePatch) {
   for (std::size_t k = 0; k < 4; ++k) outer = std::max(outer, norm(r.f[k]));
   for (const std::size_t k : p.inner) inner = std::max(inner, norm(r.f[k]));
   // The quads' hourglass forces (form 2 is not orthogonal to linear fields on distorted quads: it fails by design).
-  if (form != 2) {
-    EXPECT_LT(inner, 1e-6 * outer) << "form " << form;
-  }
+  if (form != 2) { EXPECT_LT(inner, 1e-6 * outer) << "form " << form; }
 }
 
 // Constant curvature on a distorted mesh: every element has M = E t/(12 (1 - nu^2)) (...), inner nodes are in moment equilibrium.

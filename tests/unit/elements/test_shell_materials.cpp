@@ -141,9 +141,7 @@ TEST(ShellLaw2, UniaxialTensionFollowsTheHardeningCurve) {
               EXPECT_NEAR(o.resultants[0], curve(p_old), 1e-11);
             } else {
               // Iplas 3 takes dp = (mises - Y)/(3G + H) of a trial that is not uniaxial: less than the strain it relaxes.
-              if (iplas == 1) {
-                EXPECT_NEAR(p, strain - o.resultants[0] / e, 2e-6) << "n " << n;
-              }
+              if (iplas == 1) { EXPECT_NEAR(p, strain - o.resultants[0] / e, 2e-6) << "n " << n; }
               EXPECT_NEAR(o.resultants[0], curve(p), 2e-3 * curve(p)) << "Iplas " << iplas << " n " << n;
             }
           }

@@ -140,9 +140,7 @@ TEST_P(StepBound, NodalStiffnessBoundsTheAssembledMesh) {
   for (int i = 0; i < 10; ++i) {
     ShellModel s = make(form, 0.3, 0.02 + 0.1 * (i % 4));
     for (int b = 0; b < 4; ++b) {
-      for (int a = 0; a < 4; ++a) {
-        s.node({(1.0 + 0.5 * i) * (a + 0.2 * d(random)), b + 0.2 * d(random), 0.0});
-      }
+      for (int a = 0; a < 4; ++a) { s.node({(1.0 + 0.5 * i) * (a + 0.2 * d(random)), b + 0.2 * d(random), 0.0}); }
     }
     for (Index b = 0; b < 3; ++b) {
       for (Index a = 0; a < 3; ++a) {
@@ -165,9 +163,7 @@ TEST_P(StepBound, NodalStiffnessBoundsTheAssembledMesh) {
     EXPECT_LE(nodal, exact * (1.0 + 2e-6));
     EXPECT_GE(nodal, element * (1.0 - 1e-12));
     // Slivers of aspect 3 to 5.5: assembly of element bounds loses more (triangles down to 0.43), never the sign of the inequality.
-    if (i < 4) {
-      EXPECT_GE(nodal, 0.7 * exact) << "mesh " << i;
-    }
+    if (i < 4) { EXPECT_GE(nodal, 0.7 * exact) << "mesh " << i; }
   }
 }
 

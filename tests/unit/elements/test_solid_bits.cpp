@@ -85,8 +85,14 @@ std::vector<simd::Isa> available() {
 }
 
 TEST(SolidBits, EveryInstructionSetAndThreadCount) {
-  const Case cases[] = {{}, {2, 1, 4, 2, 2}, {1, 2, 4, 2, 1}, {1, 2, 1, 1, 2, true}, {1, 1, 4, 2, 3, true}, {1, 1, 1, 1, 2},
-                        {1, 1, 4, 1, 2, false, true}, {1, 1, 4, 2, 2, true, true}};
+  const Case cases[] = {{},
+                        {2, 1, 4, 2, 2},
+                        {1, 2, 4, 2, 1},
+                        {1, 2, 1, 1, 2, true},
+                        {1, 1, 4, 2, 3, true},
+                        {1, 1, 1, 1, 2},
+                        {1, 1, 4, 1, 2, false, true},
+                        {1, 1, 4, 2, 2, true, true}};
   for (const Case& c : cases) {
     const auto scalar = run(c, c.tetra ? scalar_tetra : scalar_brick, 1);
     for (const simd::Isa isa : available()) {

@@ -13,8 +13,7 @@ std::vector<std::vector<Index>> split(const std::vector<std::vector<Index>>& bri
   std::vector<std::vector<Index>> out;
   constexpr int ring[7] = {1, 2, 3, 7, 4, 5, 1};
   for (const auto& b : bricks)
-    for (int i = 0; i < 6; ++i)
-      out.push_back({b[0], b[static_cast<std::size_t>(ring[i])], b[static_cast<std::size_t>(ring[i + 1])], b[6]});
+    for (int i = 0; i < 6; ++i) out.push_back({b[0], b[static_cast<std::size_t>(ring[i])], b[static_cast<std::size_t>(ring[i + 1])], b[6]});
   return out;
 }
 
@@ -95,8 +94,8 @@ Balance balance(const SolidSetup& setup, bool tetra, double amplitude, double h,
   return out;
 }
 
-// Internal (with bulk viscosity) + hourglass + kinetic energy stays constant over 3000 steps: brick in both frames and both hourglass forms, elastic
-// and plastic, and tetrahedra; strains of 1e-3 to 1e-2.
+// Internal (with bulk viscosity) + hourglass + kinetic energy stays constant over 3000 steps: brick in both frames and both hourglass
+// forms, elastic and plastic, and tetrahedra; strains of 1e-3 to 1e-2.
 TEST(SolidDynamics, EnergyBalance) {
   model::LawJohnsonCook jc;
   jc.young = 210.0;
@@ -139,7 +138,11 @@ TEST(SolidDynamics, MomentumIsConserved) {
   for (Vec3& p : box.nodes) p += 0.1 * random.vec();
   SolidBody body(box.nodes, box.bricks, SolidSetup{});
   for (Vec3& v : body.v) v = 0.1 * random.vec();
-  const auto momentum = [&body] { Vec3 p; for (std::size_t i = 0; i < body.v.size(); ++i) p += body.m[i] * body.v[i]; return p; };
+  const auto momentum = [&body] {
+    Vec3 p;
+    for (std::size_t i = 0; i < body.v.size(); ++i) p += body.m[i] * body.v[i];
+    return p;
+  };
   const Vec3 before = momentum();
   body.step(0.0);
   leap(body, 0.02, true);

@@ -43,9 +43,7 @@ std::vector<IndexEntry> read_index(const std::filesystem::path& path) {
   const std::string text = test::slurp(path);
   const std::regex pattern("<DataSet timestep=\"([^\"]*)\" part=\"0\" file=\"([^\"]*)\"/>");
   std::vector<IndexEntry> entries;
-  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) {
-    entries.push_back({std::stod((*i)[1]), (*i)[2]});
-  }
+  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) { entries.push_back({std::stod((*i)[1]), (*i)[2]}); }
   EXPECT_TRUE(text.ends_with("</VTKFile>\n"));
   return entries;
 }
@@ -146,8 +144,8 @@ TEST_F(AnimationTest, ElementFieldsThatEveryStateHas) {
 }
 
 TEST_F(AnimationTest, SelectionsOfTheDeckAddFields) {
-  scene_.model.controls.animation_fields = {"VECT/ACC",   "VECT/VROT",  "VECT/FINT", "VECT/FEXT", "MASS",      "ELEM/ENER",
-                                            "BRICK/P",    "ELEM/DENS", "SHELL/THIC", "ELEM/HOURG", "VECT/DISP", "SHELL/TENS/STRESS/MEMB"};
+  scene_.model.controls.animation_fields = {"VECT/ACC", "VECT/VROT", "VECT/FINT",  "VECT/FEXT",  "MASS",      "ELEM/ENER",
+                                            "BRICK/P",  "ELEM/DENS", "SHELL/THIC", "ELEM/HOURG", "VECT/DISP", "SHELL/TENS/STRESS/MEMB"};
   EXPECT_TRUE(select_animation_fields(scene_.model.controls.animation_fields).left_out.empty());
   const auto grid = written();
   expect_vectors(grid, "acceleration", scene_.state.a);
@@ -290,7 +288,9 @@ TEST(CellShape, PyramidAndTetrahedronHavePositiveVolume) {
   for (const std::array<Index, 8>& nodes : {std::array<Index, 8>{0, 1, 2, 3, 4, 4, 4, 4}, std::array<Index, 8>{6, 6, 6, 6, 4, 5, 1, 0}}) {
     const CellShape shape = brick_shape(nodes, x);
     ASSERT_EQ(shape.kind, CellKind::pyramid);
-    EXPECT_GT(dot(cross(at(shape.nodes[1]) - at(shape.nodes[0]), at(shape.nodes[2]) - at(shape.nodes[0])), at(shape.nodes[4]) - at(shape.nodes[0])), 0.0);
+    EXPECT_GT(dot(cross(at(shape.nodes[1]) - at(shape.nodes[0]), at(shape.nodes[2]) - at(shape.nodes[0])),
+                  at(shape.nodes[4]) - at(shape.nodes[0])),
+              0.0);
   }
   for (const std::array<Index, 4>& nodes : {std::array<Index, 4>{0, 1, 2, 5}, std::array<Index, 4>{0, 2, 1, 5}}) {
     const CellShape s = tetra_shape(nodes, x);

@@ -55,9 +55,7 @@ TEST(WriteAtomically, AFailureKeepsTheOldContentAndLeavesNoTemporaryFile) {
     const SizeLimit limit(1000);
     try {
       write_atomically(path, std::string(5000, 'x'));
-    } catch (const RunError& e) {
-      message = e.what();
-    }
+    } catch (const RunError& e) { message = e.what(); }
   }
   EXPECT_EQ(message, "cannot write '" + path.string() + "': File too large");
   EXPECT_EQ(slurp(path), "old");
@@ -97,9 +95,7 @@ TEST(CreateFolder, SaysWhichPathAndWhy) {
   try {
     create_folder(path);
     FAIL() << "nothing was thrown";
-  } catch (const RunError& e) {
-    EXPECT_EQ(std::string(e.what()), "cannot create the folder '" + path.string() + "': Not a directory");
-  }
+  } catch (const RunError& e) { EXPECT_EQ(std::string(e.what()), "cannot create the folder '" + path.string() + "': Not a directory"); }
   try {
     create_folder(folder.path() / "file");
     FAIL() << "nothing was thrown";
@@ -114,9 +110,7 @@ TEST(AppendFile, AnUnwritableFolderIsNamed) {
   try {
     const AppendFile file(path);
     FAIL() << "nothing was thrown";
-  } catch (const RunError& e) {
-    EXPECT_EQ(std::string(e.what()), "cannot write '" + path.string() + "': No such file or directory");
-  }
+  } catch (const RunError& e) { EXPECT_EQ(std::string(e.what()), "cannot write '" + path.string() + "': No such file or directory"); }
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ TEST_F(ListingTest, TheSummaryCountsAndWeighsTheModel) {
   EXPECT_TRUE(has(text, "Model       scene \"one of each\"\n"));
   EXPECT_TRUE(has(text, "Units       kg m s\n"));
   EXPECT_TRUE(has(text, "Counts      12 nodes, 1 shells, 1 3-node shells, 3 bricks, 1 tetrahedra\n"));
-  EXPECT_EQ(words(line_with(text, "11 ")), (std::vector<std::string>{"11", "2", "elements", "mass", "8", "shell", "Ishell", "1", "N", "0", "t",
-                                                                      "0,", "LAW1", "elastic", "\"shells\""}));
+  EXPECT_EQ(words(line_with(text, "11 ")), (std::vector<std::string>{"11", "2", "elements", "mass", "8", "shell", "Ishell", "1", "N", "0",
+                                                                     "t", "0,", "LAW1", "elastic", "\"shells\""}));
   EXPECT_TRUE(has(line_with(text, "22 "), "4 elements  mass 19 "));
   EXPECT_TRUE(has(text, "mass of all elements 27\n"));
   EXPECT_TRUE(has(text, "3  TYPE3 \"a with b\": nothing and nothing\n"));
@@ -94,16 +94,29 @@ TEST_F(ListingTest, ALinePerListedCycleWithTheValuesOfThatCycle) {
   scene_.state.times.cycle = 300;
   scene_.state.times.t = 0.25;
   scene_.state.times.h_plus = 0.0015;
-  scene_.balance = {.ie = 11.0, .he = 0.5, .ke = 12.0, .ker = 13.0, .ce = 1.0, .fw = 2.0, .dw = 4.0, .cx = 0.125, .extw = 15.0, .xe = 0.0,
-                    .err = -0.0123, .momentum = {}, .mass = 110.0, .added_mass = 10.0};
+  scene_.balance = {.ie = 11.0,
+                    .he = 0.5,
+                    .ke = 12.0,
+                    .ker = 13.0,
+                    .ce = 1.0,
+                    .fw = 2.0,
+                    .dw = 4.0,
+                    .cx = 0.125,
+                    .extw = 15.0,
+                    .xe = 0.0,
+                    .err = -0.0123,
+                    .momentum = {},
+                    .mass = 110.0,
+                    .added_mass = 10.0};
   s.controller = {cycle::StepController::Kind::interface, 3};
   sink.cycle(s);
   EXPECT_TRUE(line_with(slurp(folder_.listing()), "300 ").empty());
   s.listing_due = true;
   sink.cycle(s);
   const std::string text = slurp(folder_.listing());
-  EXPECT_EQ(words(line_with(text, "CYCLE ")), (std::vector<std::string>{"CYCLE", "TIME", "TIME-STEP", "BY", "ID", "ERROR%", "I-ENERGY", "K-ENERGY-T",
-                                                                        "K-ENERGY-R", "CONT-ENERGY", "CONT-MADE", "EXT-WORK", "MASS-ERR"}));
+  EXPECT_EQ(words(line_with(text, "CYCLE ")),
+            (std::vector<std::string>{"CYCLE", "TIME", "TIME-STEP", "BY", "ID", "ERROR%", "I-ENERGY", "K-ENERGY-T", "K-ENERGY-R",
+                                      "CONT-ENERGY", "CONT-MADE", "EXT-WORK", "MASS-ERR"}));
   EXPECT_EQ(words(line_with(text, "300 ")),
             (std::vector<std::string>{"300", "0.25", "0.0015", "INTER", "3", "-1.23", "11", "12", "13", "7", "0.125", "15", "0.1"}));
   EXPECT_EQ(line_with(text, "300 ").size(), line_with(text, "CYCLE ").size());  // numbers stand under their titles

@@ -42,8 +42,8 @@ TEST_F(ManifestTest, ARunThatWasKilledLeavesWhatItWas) {
   EXPECT_EQ(j["model"]["parts"][1]["id"], 22);
   EXPECT_EQ(j["model"]["parts"][1]["mass"], 19.0);
   EXPECT_EQ(j["model"]["interfaces"][0]["type"], "TYPE3");
-  const json finding = {{"severity", "warning"}, {"code", "deck.odd"}, {"message", "odd"}, {"file", "a_0000.rad"}, {"line", 12},
-                        {"keyword", "/INTER/TYPE3/1"}, {"field", "Gap"}, {"columns", {41, 60}}};
+  const json finding = {{"severity", "warning"},       {"code", "deck.odd"}, {"message", "odd"},   {"file", "a_0000.rad"}, {"line", 12},
+                        {"keyword", "/INTER/TYPE3/1"}, {"field", "Gap"},     {"columns", {41, 60}}};
   EXPECT_EQ(j["findings"], json::array({finding}));
 }
 

@@ -9,7 +9,8 @@ namespace {
 class ProgressTest : public ::testing::Test {
  protected:
   Progress make(bool terminal) {
-    return Progress({.terminal = terminal, .min_interval = 0.5}, [this](std::string_view s) { written_.emplace_back(s); }, [this] { return now_; });
+    return Progress(
+        {.terminal = terminal, .min_interval = 0.5}, [this](std::string_view s) { written_.emplace_back(s); }, [this] { return now_; });
   }
   double now_ = 100.0;
   std::vector<std::string> written_;

@@ -33,9 +33,7 @@ class Probe final : public cycle::Sink {
 std::string message_of(const std::function<void()>& f) {
   try {
     f();
-  } catch (const RunError& e) {
-    return e.what();
-  }
+  } catch (const RunError& e) { return e.what(); }
   return {};
 }
 

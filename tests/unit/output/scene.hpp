@@ -133,7 +133,7 @@ struct Scene {
     add(model.shells, 31, 0, {0, 1, 2, 3});
     add(model.sh3ns, 32, 0, {8, 9, 10});
     add(model.bricks, 41, 1, {0, 1, 2, 3, 4, 5, 6, 7});
-    add(model.bricks, 42, 1, {4, 5, 6, 6, 8, 9, 10, 10});   // wedge
+    add(model.bricks, 42, 1, {4, 5, 6, 6, 8, 9, 10, 10});    // wedge
     add(model.bricks, 43, 1, {4, 4, 6, 6, 11, 11, 10, 10});  // tetrahedron
     add(model.tetras, 51, 1, {4, 6, 7, 11});
     groups.push_back(std::make_unique<FakeGroup>(model::ElementKind::shell4, 0, std::vector<Index>{0}));

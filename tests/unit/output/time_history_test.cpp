@@ -74,11 +74,22 @@ class TimeHistoryTest : public ::testing::Test {
 TEST_F(TimeHistoryTest, BalanceColumnsComeFirstUnderTheNamesOfTheDesign) {
   scene_.state.times.t = 0.125;
   scene_.state.times.h_plus = 1e-6;
-  scene_.balance = {.ie = 1.0, .he = 2.0, .ke = 3.0, .ker = 4.0, .ce = 5.0, .fw = 6.0, .dw = 7.0, .cx = 8.0, .extw = 9.0, .xe = 10.0,
-                    .err = 1.0 / 3.0, .ledger = -1e-17, .momentum = {12.0, 13.0, 14.0}};
+  scene_.balance = {.ie = 1.0,
+                    .he = 2.0,
+                    .ke = 3.0,
+                    .ker = 4.0,
+                    .ce = 5.0,
+                    .fw = 6.0,
+                    .dw = 7.0,
+                    .cx = 8.0,
+                    .extw = 9.0,
+                    .xe = 10.0,
+                    .err = 1.0 / 3.0,
+                    .ledger = -1e-17,
+                    .momentum = {12.0, 13.0, 14.0}};
   const auto r = row();
-  const std::vector<std::string> expected{"time",        "GLOBAL/IE",   "GLOBAL/HE", "GLOBAL/KE",  "GLOBAL/KER",    "GLOBAL/CE",
-                                          "GLOBAL/FW",   "GLOBAL/DW",   "GLOBAL/CX", "GLOBAL/EXTW", "GLOBAL/XE",     "GLOBAL/ERR",
+  const std::vector<std::string> expected{"time",          "GLOBAL/IE",   "GLOBAL/HE",   "GLOBAL/KE",   "GLOBAL/KER", "GLOBAL/CE",
+                                          "GLOBAL/FW",     "GLOBAL/DW",   "GLOBAL/CX",   "GLOBAL/EXTW", "GLOBAL/XE",  "GLOBAL/ERR",
                                           "GLOBAL/LEDGER", "GLOBAL/XMOM", "GLOBAL/YMOM", "GLOBAL/ZMOM", "GLOBAL/DT"};
   ASSERT_GE(names_.size(), expected.size());
   EXPECT_TRUE(std::equal(expected.begin(), expected.end(), names_.begin()));
@@ -136,7 +147,8 @@ TEST_F(TimeHistoryTest, AMovingSkewFollowsItsNodesForEachDirectionFlag) {
 }
 
 TEST_F(TimeHistoryTest, PartVariables) {
-  scene_.parts[1] = {.ie = 1.5, .he = 2.5, .sums = {.kinetic_energy = 3.5, .rotational_energy = 4.5, .mass = 2.0, .momentum = {6, 7, 8}}, .eroded = 3};
+  scene_.parts[1] = {
+      .ie = 1.5, .he = 2.5, .sums = {.kinetic_energy = 3.5, .rotational_energy = 4.5, .mass = 2.0, .momentum = {6, 7, 8}}, .eroded = 3};
   scene_.model.th_requests.push_back(
       request(model::ThKind::part, 22, 1, {"IE", "KE", "XMOM", "YMOM", "ZMOM", "MASS", "HE", "RKE", "ERODED", "VX", "VZ"}));
   const auto r = row();
@@ -162,12 +174,11 @@ TEST_F(TimeHistoryTest, EveryInterfaceHasForcesImpulsesAndEnergiesAlsoWhenNoGrou
   EXPECT_EQ(r.at("INTER/3/FTZ"), 6);
   EXPECT_EQ(r.at("INTER/3/CE_ELAST"), 13);
   EXPECT_FALSE(r.contains("INTER/3/FNY"));  // was not asked for
-  const std::vector<std::string> names{"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ", "IFNX", "IFNY", "IFNZ", "IFTX", "IFTY", "IFTZ", "CE", "FW", "DW", "CX"};
+  const std::vector<std::string> names{"FNX",  "FNY",  "FNZ",  "FTX",  "FTY", "FTZ", "IFNX", "IFNY",
+                                       "IFNZ", "IFTX", "IFTY", "IFTZ", "CE",  "FW",  "DW",   "CX"};
   for (std::size_t k = 0; k < names.size(); ++k) {
     const double value = static_cast<double>(k + 1);
-    if (k >= 6) {
-      EXPECT_EQ(r.at("INTER/3/" + names[k]), value) << names[k];
-    }
+    if (k >= 6) { EXPECT_EQ(r.at("INTER/3/" + names[k]), value) << names[k]; }
     EXPECT_EQ(r.at("INTER/7/" + names[k]), -value) << names[k];
   }
   EXPECT_EQ(r.at("INTER/3/NC"), 17);
@@ -176,7 +187,8 @@ TEST_F(TimeHistoryTest, EveryInterfaceHasForcesImpulsesAndEnergiesAlsoWhenNoGrou
 
 TEST_F(TimeHistoryTest, WallsBodiesAndSections) {
   scene_.walls[0] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}};
-  scene_.bodies[0] = {.force_impulse = {1, 2, 3}, .moment_impulse = {4, 5, 6}, .force = {7, 8, 9}, .moment = {10, 11, 12}, .rotation = {13, 14, 15}};
+  scene_.bodies[0] = {
+      .force_impulse = {1, 2, 3}, .moment_impulse = {4, 5, 6}, .force = {7, 8, 9}, .moment = {10, 11, 12}, .rotation = {13, 14, 15}};
   scene_.sections[0] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, {13, 14, 15}, {16, 17, 18}};
   scene_.model.th_requests.push_back(request(model::ThKind::rwall, 5, 0, {"FNX", "FTZ"}));
   scene_.model.th_requests.push_back(request(model::ThKind::rbody, 6, 0, {"FX", "MZ", "RY", "DX", "VRZ"}));

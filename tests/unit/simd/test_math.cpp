@@ -1,6 +1,4 @@
 // The elementary functions of the state path: accurate, and the same bits for every width.
-#include "simd/math.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -10,14 +8,14 @@
 #include <random>
 #include <vector>
 
+#include "simd/math.hpp"
+
 namespace {
 
 using abut::simd::Pack;
 
 // 80-bit arithmetic of the C library: 11 bits more than what is tested.
-long double relative_error(double value, long double exact) {
-  return std::fabs((static_cast<long double>(value) - exact) / exact);
-}
+long double relative_error(double value, long double exact) { return std::fabs((static_cast<long double>(value) - exact) / exact); }
 
 std::vector<double> positive_samples(int count) {
   std::mt19937_64 random(7);
