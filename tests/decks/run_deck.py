@@ -100,7 +100,7 @@ def main():
     parser.add_argument("--abut", required=True)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--keep", help="keep the run folder here")
-    parser.add_argument("--tolerance", type=float, default=0.01)
+    parser.add_argument("--tolerance", type=float, default=0.001)
     parser.add_argument("--strict", action="store_true")
     args = parser.parse_args()
 
