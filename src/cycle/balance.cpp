@@ -100,7 +100,7 @@ void Cycle::close_balance() {
     b.dw += r.dw;
     b.cx += r.cx;
   }
-  b.xe = -scaled_energy_;
+  b.xe = removed_energy_ - scaled_energy_;
   const double sum = b.ie + b.he + b.ke + b.ker + b.ce + b.fw + b.dw + b.xe - b.extw;
   if (state_.times.cycle == 0) b.initial = sum;
   for (const double term : {b.ie, b.he, b.ke, b.ker, b.ce, b.fw, b.dw, b.extw, b.initial}) b.largest = std::max(b.largest, std::abs(term));
@@ -124,6 +124,14 @@ void Cycle::check_finite() {
   }
   const double asked = model_.controls.stop_energy_error;
   const double limit = asked > 0.0 ? asked : default_error_limit;
+  const model::Controls& stop = model_.controls;
+  if (stop.stop_total_mass > 0.0 && balance_.added_mass > stop.stop_total_mass * (balance_.mass - balance_.added_mass)) {
+    throw RunError("added mass of " + std::to_string(balance_.added_mass) + " is beyond the limit of /STOP" + when);
+  }
+  if (const Index node = time_step_->first_beyond(stop.stop_nodal_mass, state_); node != no_index) {
+    throw RunError("added mass of node " + std::to_string(model_.node_id[static_cast<std::size_t>(node)]) +
+                   " is beyond the nodal limit of /STOP" + when);
+  }
   beyond_limit_ = std::abs(balance_.err) > limit ? beyond_limit_ + 1 : 0;
   if (beyond_limit_ < patience) return;
   std::size_t fastest = 0;
@@ -133,6 +141,17 @@ void Cycle::check_finite() {
   throw RunError("energy error of " + std::to_string(100.0 * balance_.err) + " % of the largest term is beyond the limit of " +
                  std::to_string(100.0 * limit) + " %" + when + "; the fastest node is " + std::to_string(model_.node_id[fastest]) +
                  " (speed " + std::to_string(norm(state_.v[fastest])) + ")");
+}
+
+void Cycle::check_minimum_step(const elements::Group& group, const elements::GroupResult& result) const {
+  const model::Controls& c = model_.controls;
+  const model::StepControl* control = &c.brick;
+  if (group.kind() == model::ElementKind::shell4) control = &c.shell;
+  if (group.kind() == model::ElementKind::shell3) control = &c.sh3n;
+  if (group.kind() == model::ElementKind::tetra) control = &c.tetra;
+  if (control->action != model::StepControl::Action::stop || result.step > control->minimum) return;
+  throw RunError("the time step of element " + std::to_string(element_id(group, result.step_element)) + " fell to " +
+                 std::to_string(result.step) + ", below the minimum of /DT, at cycle " + std::to_string(state_.times.cycle));
 }
 
 Snapshot Cycle::snapshot() {

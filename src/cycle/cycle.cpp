@@ -83,6 +83,7 @@ void Cycle::internal_forces(StepLimits& limits) {
     const Timer timer(*this, p_elements);
     const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus};
     for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
+    removed_energy_ = 0.0;
     for (const std::unique_ptr<elements::Group>& g : groups_) {
       const elements::GroupResult r = g->step(in, slots_, pool_);
       if (r.bad_element != no_index) {
@@ -94,7 +95,9 @@ void Cycle::internal_forces(StepLimits& limits) {
       part.ie += r.internal_energy;
       part.he += r.hourglass_energy;
       part.eroded += r.removed;
+      removed_energy_ += r.removed_energy;
       if (r.removed > 0) eroded_ = true;
+      check_minimum_step(*g, r);
       if (history_due_) {
         const elements::PartSums sums = g->part_sums(state_.v, state_.w);
         part.sums.kinetic_energy += sums.kinetic_energy;

@@ -51,6 +51,7 @@ class Cycle {
 
   void decide_outputs();
   void switch_off_rigid_elements();
+  void check_minimum_step(const elements::Group& group, const elements::GroupResult& result) const;
   void clear_forces();
   void internal_forces(StepLimits& limits);
   void contact_forces(StepLimits& limits);
@@ -99,8 +100,9 @@ class Cycle {
   bool begun_ = false;
   bool eroded_ = false;
   double scaled_energy_ = 0.0;
-  double booked_work_ = 0.0;  // external work of this cycle as the reference program books it
-  int beyond_limit_ = 0;      // cycles in a row with an energy error beyond the limit
+  double removed_energy_ = 0.0;  // held by deleted elements that their groups no longer count
+  double booked_work_ = 0.0;     // external work of this cycle as the reference program books it
+  int beyond_limit_ = 0;         // cycles in a row with an energy error beyond the limit
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;

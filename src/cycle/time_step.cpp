@@ -64,6 +64,7 @@ TimeStep::Smallest TimeStep::nodal(const state::State& s, bool rotations, parall
 
 double TimeStep::scale_masses(state::State& s) {
   if (scaled_.empty() || model_.controls.nodal_minimum <= 0.0) return 0.0;
+  if (first_mass_.empty()) first_mass_ = s.mass;
   const double wanted = model_.controls.nodal_minimum / nodal_scale_;
   const double half_square = 0.5 * wanted * wanted;
   double energy = 0.0;
@@ -82,6 +83,14 @@ double TimeStep::scale_masses(state::State& s) {
     }
   }
   return energy;
+}
+
+Index TimeStep::first_beyond(double ratio, const state::State& s) const {
+  if (ratio <= 0.0) return no_index;
+  for (std::size_t i = 0; i < first_mass_.size(); ++i) {
+    if (s.mass[i] > (1.0 + ratio) * first_mass_[i] && first_mass_[i] > 0.0) return static_cast<Index>(i);
+  }
+  return no_index;
 }
 
 StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness,

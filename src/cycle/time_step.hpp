@@ -34,6 +34,8 @@ class TimeStep {
   /// @param contact_stiffness  #N: share of s.stiffness that comes from interfaces
   StepController choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness, parallel::ThreadPool& pool);
 
+  /// First node whose mass grew by more than `ratio` of its first one (/STOP); no_index: none, or ratio 0.
+  [[nodiscard]] Index first_beyond(double ratio, const state::State& s) const;
   [[nodiscard]] double added_mass() const { return added_mass_; }
 
  private:
@@ -54,6 +56,7 @@ class TimeStep {
   double nodal_scale_ = 0.9;
   double previous_step_ = 1e30;  ///< before the first cycle: no limit on growth
   double added_mass_ = 0.0;
+  std::vector<double> first_mass_;  ///< #N, kept when masses may be scaled
 };
 
 }  // namespace abut::cycle
