@@ -3,11 +3,13 @@
 
 usage: check_command_line.py ABUT DECK
 
-ABUT is the program, DECK a Starter deck that has no errors and whose run lasts a second or more. Standard library only.
+ABUT is the program, DECK a Starter deck that has no errors, with its Engine deck beside it. Standard library only.
 Exit status 0 when all holds.
 """
 import json
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -46,6 +48,18 @@ def check(abut, deck):
     document = json.loads(result.stdout)
     expect(document["ok"] and document["model"]["nodes"] > 0, "check --json says that the deck is good", result)
     return document["model"]["name"]
+
+
+def endless(deck, folder):
+    """A copy of the deck whose run does not end within the test."""
+    os.makedirs(folder)
+    engine = deck.replace("_0000.rad", "_0001.rad")
+    shutil.copy(deck, folder)
+    text, count = re.subn(r"(?m)^(/RUN/.*\n)\s*\S+", r"\g<1>1e6", open(engine).read())
+    expect(count == 1, "the Engine deck has a final time")
+    with open(os.path.join(folder, os.path.basename(engine)), "w") as file:
+        file.write(text)
+    return os.path.join(folder, os.path.basename(deck))
 
 
 def interrupted(abut, deck, name, folder):
@@ -95,7 +109,7 @@ def main():
     usage(abut)
     name = check(abut, deck)
     with tempfile.TemporaryDirectory() as folder:
-        interrupted(abut, deck, name, os.path.join(folder, "interrupted"))
+        interrupted(abut, endless(deck, os.path.join(folder, "deck")), name, os.path.join(folder, "interrupted"))
         complete(abut, deck, name, os.path.join(folder, "complete"))
         unwritable(abut, deck, folder)
     print("the command line does what it says")
