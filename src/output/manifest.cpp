@@ -37,6 +37,7 @@ void Manifest::begin(const cycle::Snapshot& first) {
                    {"hash_every", info_.hash_every}};
   j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
   j["findings"] = findings_json(info_.findings);
+  j["contact"] = contact_json(info_.contact);
   j["files"] = {{"listing", folder_.listing().filename().string()},
                 {"history", folder_.history().filename().string()},
                 {"animation", folder_.animation_index().filename().string()}};

@@ -6,6 +6,7 @@
 
 #include "core/diagnostic.hpp"
 #include "cycle/run.hpp"
+#include "init/contact_inspection.hpp"
 
 namespace abut::output {
 
@@ -20,6 +21,7 @@ struct RunInfo {
   int hash_every = 0;              ///< 0: no state hash
   std::vector<std::string> decks;  ///< paths of the Starter and Engine decks and their includes
   std::vector<Diagnostic> findings;
+  std::vector<init::ContactFinding> contact;  ///< what the inspection found; also among the findings, as text
 };
 
 using PhaseTime = cycle::PhaseTime;

@@ -51,24 +51,24 @@ struct InspectedSide {
 
 struct InspectionInput {
   std::array<InspectedSide, 2> side;
-  bool both_sides = false;           ///< facets repel on both sides (TYPE7): normals do not matter
-  double stiffness_scale = 0.2;      ///< s (T14)
-  double gap = 0.0;                  ///< length
-  std::span<const Vec3> x;           ///< #N by 3 positions
-  std::span<const Vec3> v;           ///< #N by 3 velocities; empty: at rest
-  std::span<const double> mass;      ///< #N nodal masses; empty: not known
-  double element_step = 0.0;         ///< stable step without the interface; 0: not known
+  bool both_sides = false;       ///< facets repel on both sides (TYPE7): normals do not matter
+  double stiffness_scale = 0.2;  ///< s (T14)
+  double gap = 0.0;              ///< length
+  std::span<const Vec3> x;       ///< #N by 3 positions
+  std::span<const Vec3> v;       ///< #N by 3 velocities; empty: at rest
+  std::span<const double> mass;  ///< #N nodal masses; empty: not known
+  double element_step = 0.0;     ///< stable step without the interface; 0: not known
 };
 
 /// Beyond these the inspection speaks.
 struct InspectionLimits {
-  double aspect_ratio = 5.0;      ///< longest over shortest side (T7)
-  double warp_degrees = 15.0;     ///< angle between the two triangles of a quadrilateral (T7)
-  double size_ratio = 4.0;        ///< mean facet size of one side over that of the other, where they are near (T7)
-  double stiffness_ratio = 10.0;  ///< K1/K2 (T15)
-  double concave_degrees = 10.0;  ///< inward fold (T4)
-  double gap_of_size = 0.5;       ///< gap over the smallest facet size (T30)
-  double steps_through_gap = 5.0; ///< steps that the fastest approach takes through the gap (T29)
+  double aspect_ratio = 5.0;       ///< longest over shortest side (T7)
+  double warp_degrees = 15.0;      ///< angle between the two triangles of a quadrilateral (T7)
+  double size_ratio = 4.0;         ///< mean facet size of one side over that of the other, where they are near (T7)
+  double stiffness_ratio = 10.0;   ///< K1/K2 (T15)
+  double concave_degrees = 10.0;   ///< inward fold (T4)
+  double gap_of_size = 0.5;        ///< gap over the smallest facet size (T30)
+  double steps_through_gap = 5.0;  ///< steps that the fastest approach takes through the gap (T29)
 };
 
 /// Everything that can be said before the first step, worst first; findings of one severity in the order of the documentation.
@@ -89,8 +89,8 @@ struct Facing {
 
 /// Which facets to reverse so that each side is oriented alike and faces the other.
 struct Orientation {
-  std::array<std::vector<Index>, 2> flip;   ///< facets to reverse, ascending
-  std::array<bool, 2> ambiguous{};          ///< some piece of this side has no clear answer; it is left as it is
+  std::array<std::vector<Index>, 2> flip;  ///< facets to reverse, ascending
+  std::array<bool, 2> ambiguous{};         ///< some piece of this side has no clear answer; it is left as it is
 };
 [[nodiscard]] Orientation orient(const InspectionInput& input);
 

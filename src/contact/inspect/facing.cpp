@@ -8,9 +8,9 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-constexpr double clear_cosine = 0.5;   // less than this between normal and line of sight decides nothing
-constexpr double clear_share = 0.25;   // less than this net share of the votes decides nothing
-constexpr double touching = 1e-6;      // of the facets' size: no line of sight
+constexpr double clear_cosine = 0.5;  // less than this between normal and line of sight decides nothing
+constexpr double clear_share = 0.25;  // less than this net share of the votes decides nothing
+constexpr double touching = 1e-6;     // of the facets' size: no line of sight
 
 struct Votes {
   double sum = 0.0, weight = 0.0;

@@ -26,8 +26,8 @@ struct BothViews {
 
 /// Net answer of a piece in one of its two orientations, by area.
 struct PieceVote {
-  double facing = 0.0, away = 0.0;  ///< as the facets are
-  double score = 0.0, weight = 0.0; ///< with all facets turned to the orientation of the piece's first facet
+  double facing = 0.0, away = 0.0;   ///< as the facets are
+  double score = 0.0, weight = 0.0;  ///< with all facets turned to the orientation of the piece's first facet
 };
 /// #pieces by 2 (orientation within the piece): `facing`, `away`; score and weight are in [0] for the whole piece.
 [[nodiscard]] std::vector<std::array<PieceVote, 2>> piece_votes(const Shape& shape, const Facing& facing);

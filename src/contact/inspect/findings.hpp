@@ -32,9 +32,9 @@ struct InspectionContext {
 /// Three significant digits.
 [[nodiscard]] std::string short_number(double value);
 
-void find_topology(const InspectionContext& c);   ///< shared nodes, degenerate, duplicate, junctions, no stiffness
+void find_topology(const InspectionContext& c);     ///< shared nodes, degenerate, duplicate, junctions, no stiffness
 void find_orientation(const InspectionContext& c);  ///< facing, mixed orientation
-void find_shape(const InspectionContext& c);      ///< aspect ratio, warp, concave edges
-void find_nearness(const InspectionContext& c);   ///< penetrations, clearance, blind nodes, sizes, stiffness, gap, step
+void find_shape(const InspectionContext& c);        ///< aspect ratio, warp, concave edges
+void find_nearness(const InspectionContext& c);     ///< penetrations, clearance, blind nodes, sizes, stiffness, gap, step
 
 }  // namespace abut::contact

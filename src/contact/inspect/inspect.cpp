@@ -8,12 +8,18 @@ namespace abut::contact {
 namespace {
 
 constexpr std::string_view codes[] = {
-    "contact.shared_nodes",  "contact.degenerate_facets", "contact.duplicate_facets",   "contact.normals_away",
-    "contact.normals_alike", "contact.partly_away",       "contact.mixed_orientation",  "contact.one_sided",
-    "contact.junctions",     "contact.no_stiffness",      "contact.overlap",            "contact.initial_penetration",
-    "contact.out_of_reach",  "contact.blind_nodes",       "contact.clearance",          "contact.stiffness_ratio",
-    "contact.size_ratio",    "contact.gap_large",         "contact.gap_small",          "contact.interface_step",
-    "contact.aspect_ratio",  "contact.warp",              "contact.concave",
+    "contact.shared_nodes",      "contact.degenerate_facets",
+    "contact.duplicate_facets",  "contact.normals_away",
+    "contact.normals_alike",     "contact.partly_away",
+    "contact.mixed_orientation", "contact.one_sided",
+    "contact.junctions",         "contact.no_stiffness",
+    "contact.overlap",           "contact.initial_penetration",
+    "contact.out_of_reach",      "contact.blind_nodes",
+    "contact.clearance",         "contact.stiffness_ratio",
+    "contact.size_ratio",        "contact.gap_large",
+    "contact.gap_small",         "contact.interface_step",
+    "contact.aspect_ratio",      "contact.warp",
+    "contact.concave",
 };
 
 }  // namespace

@@ -9,9 +9,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-double degrees_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b)) * (180.0 / 3.141592653589793);
-}
+double degrees_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)) * (180.0 / 3.141592653589793); }
 
 std::string percent(double share) { return short_number(100.0 * share) + " %"; }
 
@@ -113,8 +111,9 @@ void find_orientation(const InspectionContext& c) {
                    : counted(away.size(), "segment", "segments") + " near the other side have their normals pointing away from it (" +
                          percent(view.facing.fraction()) + " of the surface near it faces)";
       f.what += ", up to " + short_number(view.away_distance) + " away";
-      f.advice = "Contact would not be felt there: reverse these segments (or run with --orient auto); if instead the surfaces overlap by "
-                 "that much at the start, separate them.";
+      f.advice =
+          "Contact would not be felt there: reverse these segments (or run with --orient auto); if instead the surfaces overlap by "
+          "that much at the start, separate them.";
       f.facets = std::move(away);
     }
     if (!alike.empty()) {
@@ -132,7 +131,8 @@ void find_orientation(const InspectionContext& c) {
       f.measure_name = "facing fraction";
       f.measure = view.facing.fraction();
       f.what = counted(partly.size(), "segment", "segments") +
-               " of a surface that faces the other side on the whole see it behind them, up to " + short_number(view.away_distance) + " deep";
+               " of a surface that faces the other side on the whole see it behind them, up to " + short_number(view.away_distance) +
+               " deep";
       f.advice = "Take out segments that cannot touch, or remove the overlap there.";
       f.facets = std::move(partly);
     }

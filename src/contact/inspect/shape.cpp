@@ -144,8 +144,9 @@ void Shape::connect() {
       edges.push_back({std::min(a, b), std::max(a, b), f, a < b});
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return std::array{a.low, a.high, a.facet} < std::array{b.low, b.high, b.facet}; });
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::array{a.low, a.high, a.facet} < std::array{b.low, b.high, b.facet};
+  });
   std::vector<Index> borders;  // facets with a side of their own
   for (std::size_t first = 0; first < edges.size();) {
     std::size_t last = first + 1;
