@@ -106,7 +106,8 @@ int run_command(const RunArguments& arguments) {
   const output::RunFolder folder{arguments.output.empty() ? std::filesystem::path(model.name) : arguments.output, model.name};
   std::vector<output::PhaseTime> phases{{"read", reading}, {"inspect", inspecting}};
   const auto run_start = std::chrono::steady_clock::now();
-  const auto sinks = output::open_run_outputs(folder, run_info(arguments, settings, input, contact), [&phases, run_start] {
+  const output::RunInfo info = run_info(arguments, settings, input, contact);
+  const auto sinks = output::open_run_outputs(folder, info, [&phases, run_start] {
     std::vector<output::PhaseTime> all = phases;
     all.push_back({"run", seconds_since(run_start)});
     return all;
@@ -120,6 +121,7 @@ int run_command(const RunArguments& arguments) {
   }
 
   const cycle::Outcome outcome = run_model(model, settings, *sinks, phases);
+  for (const output::RunFinding& f : *info.during) fmt::print(stderr, "{}\n", to_string(f.diagnostic));
   const bool good = outcome.kind == cycle::Outcome::Kind::finished;
   if (!arguments.quiet || !good) { fmt::print(good ? stdout : stderr, "{} {}\n", model.name, output::outcome_text(outcome)); }
   if (arguments.timing) {

@@ -78,6 +78,8 @@ struct InspectionLimits {
 struct Facing {
   std::vector<std::int8_t> facet;  ///< #F: +1 faces, -1 faces away, 0 nothing near, undecided or an overlap of solids
   double area_facing = 0.0, area_away = 0.0;
+  double distance =
+      std::numeric_limits<double>::infinity();  ///< smallest distance of the centre of a facet (a held node) to the other side
   /// Share of the decided area that faces; NaN when nothing is decided.
   [[nodiscard]] double fraction() const {
     const double decided = area_facing + area_away;

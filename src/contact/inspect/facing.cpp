@@ -145,6 +145,7 @@ std::vector<std::array<PieceVote, 2>> piece_votes(const Shape& shape, const Faci
 std::array<Facing, 2> facing(const InspectionInput& input) {
   const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
   BothViews views = look(shapes, input.gap);
+  for (Views& v : views.side) v.facing.distance = views.smallest;
   return {std::move(views.side[0].facing), std::move(views.side[1].facing)};
 }
 

@@ -18,8 +18,8 @@ struct Views {
 
 struct BothViews {
   std::array<Views, 2> side;
-  double reach = 0.0;     ///< distance within which facets count as near
-  double smallest = 0.0;  ///< smallest distance of a facet's centre (a node) to the other side
+  double reach = 0.0;       ///< distance within which facets count as near
+  double smallest = 1e300;  ///< smallest distance of a facet's centre (a node) to the other side
 };
 
 [[nodiscard]] BothViews look(const std::array<Shape, 2>& shapes, double gap);
