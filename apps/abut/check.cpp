@@ -11,15 +11,22 @@
 namespace abut::app {
 
 int check_command(const CheckArguments& arguments) {
-  const DeckInput input = read_deck(arguments.deck);
-  const bool good = !input.findings.has_errors();
+  DeckInput input = read_deck(arguments.deck);
+  const bool readable = !input.findings.has_errors();
   RunSettings settings;
   settings.profile = profile_of(arguments.profile);
-  const Description description = good ? describe_model(input.model, settings) : Description{};
+  Description description;
+  if (readable) {
+    if (arguments.orient) orient(input, arguments.deck, arguments.write_deck);
+    description = describe_model(input.model, settings, true);
+    for (const init::ContactFinding& c : description.contact) input.findings.add(init::to_diagnostic(c));
+  }
+  const bool good = !input.findings.has_errors();
 
   if (arguments.json) {
     output::Json j{{"ok", good}, {"decks", input.files}, {"findings", output::findings_json(input.findings.all())}};
-    if (good) {
+    if (readable) {
+      j["contact"] = output::contact_json(description.contact);
       j["model"] = output::model_json(input.model, description.part_mass);
       if (!description.step.empty()) j["step"] = description.step;
     }
@@ -27,10 +34,10 @@ int check_command(const CheckArguments& arguments) {
     return good ? 0 : 1;
   }
   print_findings(input.findings);
-  if (!good) return 1;
+  if (!readable) return 1;
   fmt::print("{}", output::model_summary(input.model, description.part_mass));
   if (!description.step.empty()) fmt::print("Time step   {}\n", description.step);
-  return 0;
+  return good ? 0 : 1;
 }
 
 }  // namespace abut::app

@@ -20,12 +20,17 @@ struct RunArguments {
   int hash_every = 0;
   bool timing = false;
   bool quiet = false;
+  bool orient = false;               ///< --orient auto
+  bool allow_findings = false;       ///< run although the contact inspection found errors
+  std::filesystem::path write_deck;  ///< empty: not asked for
 };
 
 struct CheckArguments {
   std::filesystem::path deck;
   std::string profile = "standard";
   bool json = false;
+  bool orient = false;
+  std::filesystem::path write_deck;
 };
 
 /// "abut 0.1.0 (commit), compiler, instruction set".

@@ -19,7 +19,10 @@ struct DeckInput {
 /// Reads and interprets; the model is usable only when the findings have no error.
 [[nodiscard]] DeckInput read_deck(const std::filesystem::path& deck);
 
-/// Findings on standard error, one per line.
-void print_findings(const Diagnostics& findings);
+/// Turns contact surfaces where that is asked for, writes the changed deck, and adds what was done to the findings.
+void orient(DeckInput& input, const std::filesystem::path& deck, const std::filesystem::path& write_deck);
+
+/// Findings of this severity and worse on standard error, one per line.
+void print_findings(const Diagnostics& findings, Severity from = Severity::note);
 
 }  // namespace abut::app

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cycle/run.hpp"
+#include "init/contact_inspection.hpp"
 #include "model/model.hpp"
 #include "output/run_info.hpp"
 
@@ -17,11 +18,12 @@ using RunSettings = cycle::RunOptions;
 [[nodiscard]] cycle::Outcome run_model(const model::Model& model, const RunSettings& settings, cycle::Sink& sink,
                                        std::vector<output::PhaseTime>& phases);
 
-/// What `abut check` says beyond the model itself.
+/// What can be said of a model before it runs, beyond the model itself.
 struct Description {
   std::vector<double> part_mass;  ///< #parts; empty: not known
-  std::string step;               ///< first time step and what controls it; empty: not known
+  std::string step;               ///< first time step and what controls it; empty: not asked for, or not known
+  std::vector<init::ContactFinding> contact;
 };
-[[nodiscard]] Description describe_model(const model::Model& model, const RunSettings& settings);
+[[nodiscard]] Description describe_model(const model::Model& model, const RunSettings& settings, bool with_step);
 
 }  // namespace abut::app

@@ -16,7 +16,9 @@ constexpr const char* examples = R"(Examples:
   abut run INT357_0000.rad                      run the deck into ./INT357
   abut run deck_0000.rad -o out --threads 4     choose the folder and the threads
   abut run deck_0000.rad --profile reference    with the reference program's rules, to compare results
-  abut check deck_0000.rad                      read, validate and summarise; nothing is written
+  abut check deck_0000.rad                      read, validate, inspect the contacts, summarise; nothing is written
+  abut check deck_0000.rad --orient auto --write-deck fixed_0000.rad
+                                                turn contact surfaces to face each other and keep the result
 
 DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it. A run writes NAME.out (listing),
 NAME_th.csv (time history), NAME.pvd (animation, open it with ParaView) and run.json.
@@ -50,11 +52,21 @@ int main(int argc, char** argv) {
   run_app->add_flag("--timing", run.timing, "print the time spent in each phase");
   run_app->add_flag("--quiet", run.quiet, "print nothing but warnings and errors");
 
+  const CLI::IsMember orientations({"none", "auto"});
+  std::string run_orient = "none", check_orient = "none";
+  const char* orient_help = "auto: turn the segments of contact surfaces to face each other where that is unambiguous";
+  const char* write_help = "write the Starter deck with the turned surfaces to this file";
+  run_app->add_option("--orient", run_orient, orient_help)->check(orientations)->capture_default_str();
+  run_app->add_option("--write-deck", run.write_deck, write_help)->needs("--orient");
+  run_app->add_flag("--allow-findings", run.allow_findings, "run although the contact inspection found errors");
+
   CheckArguments check;
   CLI::App* check_app = app.add_subcommand("check", "read and validate a deck, print a summary");
   check_app->add_option("DECK", check.deck, "Starter deck NAME_0000.rad")->required();
   check_app->add_option("--profile", check.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
   check_app->add_flag("--json", check.json, "print JSON");
+  check_app->add_option("--orient", check_orient, orient_help)->check(orientations)->capture_default_str();
+  check_app->add_option("--write-deck", check.write_deck, write_help)->needs("--orient");
 
   try {
     app.parse(argc, argv);
@@ -65,6 +77,8 @@ int main(int argc, char** argv) {
     return 1;
   }
 
+  run.orient = run_orient == "auto";
+  check.orient = check_orient == "auto";
   try {
     return run_app->parsed() ? run_command(run) : check_command(check);
   } catch (const std::exception& e) {

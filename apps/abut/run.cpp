@@ -49,7 +49,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-output::RunInfo run_info(const RunArguments& arguments, const RunSettings& settings, const DeckInput& input) {
+output::RunInfo run_info(const RunArguments& arguments, const RunSettings& settings, const DeckInput& input,
+                         const std::vector<init::ContactFinding>& contact) {
   output::RunInfo info;
   info.version = ABUT_VERSION;
   info.commit = ABUT_COMMIT;
@@ -61,6 +62,7 @@ output::RunInfo run_info(const RunArguments& arguments, const RunSettings& setti
   info.hash_every = arguments.hash_every;
   info.decks = input.files;
   info.findings = input.findings.all();
+  info.contact = contact;
   return info;
 }
 
@@ -74,9 +76,12 @@ std::string version_text() {
 
 int run_command(const RunArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  const DeckInput input = read_deck(arguments.deck);
-  print_findings(input.findings);
-  if (input.findings.has_errors()) return 1;
+  DeckInput input = read_deck(arguments.deck);
+  if (input.findings.has_errors()) {
+    print_findings(input.findings);
+    return 1;
+  }
+  if (arguments.orient) orient(input, arguments.deck, arguments.write_deck);
   const double reading = seconds_since(start);
 
   RunSettings settings;
@@ -84,15 +89,25 @@ int run_command(const RunArguments& arguments) {
   settings.profile = profile_of(arguments.profile);
   settings.interface_law = law_of(arguments.interface_law);
   settings.hash_every = arguments.hash_every;
+  const auto inspection_start = std::chrono::steady_clock::now();
+  const std::vector<init::ContactFinding> contact = describe_model(input.model, settings, false).contact;
+  const double inspecting = seconds_since(inspection_start);
+  for (const init::ContactFinding& c : contact) input.findings.add(init::to_diagnostic(c));
+  print_findings(input.findings, arguments.quiet ? Severity::warning : Severity::note);
+  if (input.findings.has_errors() && !arguments.allow_findings) {
+    fmt::print(stderr, "{}: not run; correct the contact (see docs/findings), or run with --allow-findings\n", input.model.name);
+    return 1;
+  }
   settings.interrupt = &interrupted;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
 
   const model::Model& model = input.model;
   const output::RunFolder folder{arguments.output.empty() ? std::filesystem::path(model.name) : arguments.output, model.name};
-  std::vector<output::PhaseTime> phases{{"read", reading}};
+  std::vector<output::PhaseTime> phases{{"read", reading}, {"inspect", inspecting}};
   const auto run_start = std::chrono::steady_clock::now();
-  const auto sinks = output::open_run_outputs(folder, run_info(arguments, settings, input), [&phases, run_start] {
+  const output::RunInfo info = run_info(arguments, settings, input, contact);
+  const auto sinks = output::open_run_outputs(folder, info, [&phases, run_start] {
     std::vector<output::PhaseTime> all = phases;
     all.push_back({"run", seconds_since(run_start)});
     return all;
@@ -106,6 +121,7 @@ int run_command(const RunArguments& arguments) {
   }
 
   const cycle::Outcome outcome = run_model(model, settings, *sinks, phases);
+  for (const output::RunFinding& f : *info.during) fmt::print(stderr, "{}\n", to_string(f.diagnostic));
   const bool good = outcome.kind == cycle::Outcome::Kind::finished;
   if (!arguments.quiet || !good) { fmt::print(good ? stdout : stderr, "{} {}\n", model.name, output::outcome_text(outcome)); }
   if (arguments.timing) {

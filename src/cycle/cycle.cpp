@@ -136,6 +136,8 @@ void Cycle::contact_forces(StepLimits& limits) {
     out.dw = r.damping_work;
     out.cx = r.made;
     out.in_contact = r.in_contact;
+    out.largest_penetration = r.largest_penetration;
+    out.crossed = r.crossed;
     if (r.kinematic_step < limits.interface_step) {
       limits.interface_step = r.kinematic_step;
       limits.interface_controller = {StepController::Kind::interface, model_.interfaces[static_cast<std::size_t>(i.model_index)].id};

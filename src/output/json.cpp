@@ -7,6 +7,9 @@
 namespace abut::output {
 namespace {
 
+static_assert(static_cast<int>(Severity::error) == static_cast<int>(contact::Severity::error) && static_cast<int>(Severity::note) == 0 &&
+              static_cast<int>(contact::Severity::note) == 0);
+
 std::string_view severity_name(Severity severity) {
   switch (severity) {
     case Severity::note:
@@ -63,6 +66,25 @@ Json model_json(const model::Model& m, std::span<const double> part_mass) {
   }
   j["t_end"] = m.controls.t_end;
   return j;
+}
+
+Json contact_json(const std::vector<init::ContactFinding>& findings) {
+  Json all = Json::array();
+  for (const init::ContactFinding& c : findings) {
+    const contact::Finding& f = c.finding;
+    Json j{{"interface", c.interface_id}};
+    if (c.surface_id != 0) j["surface"] = c.surface_id;
+    j["severity"] = severity_name(static_cast<Severity>(f.severity));
+    j["code"] = f.code;
+    j["what"] = f.what;
+    j["advice"] = f.advice;
+    j["measure"] = {{"name", f.measure_name}, {"value", f.measure}};
+    if (!c.nodes.empty()) j["nodes"] = c.nodes;
+    if (!c.segments.empty()) j["segments"] = c.segments;
+    for (const contact::Bar& bar : f.histogram) j["histogram"].push_back({{"low", bar.low}, {"high", bar.high}, {"count", bar.count}});
+    all.push_back(std::move(j));
+  }
+  return all;
 }
 
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

@@ -59,6 +59,7 @@ void Listing::begin(const cycle::Snapshot& first) {
 
 void Listing::cycle(const cycle::Snapshot& now) {
   record_.cycle(now);
+  for (; said_ < info_.during->size(); ++said_) file_.append("  " + to_string((*info_.during)[said_].diagnostic) + "\n");
   if (!now.listing_due) return;
   const state::Balance& b = *now.balance;
   std::string text;

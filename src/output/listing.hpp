@@ -23,6 +23,7 @@ class Listing final : public cycle::Sink {
  private:
   AppendFile file_;
   RunInfo info_;
+  std::size_t said_ = 0;  ///< findings of the run that are in the file
   RunRecord record_;
   int lines_ = 0;  ///< of the cycle listing, for repeating its header
 };

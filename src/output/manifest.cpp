@@ -37,6 +37,7 @@ void Manifest::begin(const cycle::Snapshot& first) {
                    {"hash_every", info_.hash_every}};
   j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
   j["findings"] = findings_json(info_.findings);
+  j["contact"] = contact_json(info_.contact);
   j["files"] = {{"listing", folder_.listing().filename().string()},
                 {"history", folder_.history().filename().string()},
                 {"animation", folder_.animation_index().filename().string()}};
@@ -62,6 +63,16 @@ void Manifest::end(const cycle::Outcome& outcome) {
   j["mass"] = {{"total", b.mass}, {"added", b.added_mass}, {"error", mass_error(b)}};
   j["worst"] = {{"ERR", {{"value", record_.worst_error().value}, {"time", record_.worst_error().time}}},
                 {"CX", {{"value", record_.worst_made().value}, {"time", record_.worst_made().time}}}};
+  j["run_findings"] = Json::array();
+  for (const RunFinding& f : *info_.during) {
+    j["run_findings"].push_back({{"interface", f.interface_id},
+                                 {"severity", "warning"},
+                                 {"code", f.diagnostic.code},
+                                 {"time", f.time},
+                                 {"cycle", f.cycle},
+                                 {"measure", f.measure},
+                                 {"message", f.diagnostic.message}});
+  }
   j["hashes"] = Json::array();
   for (const RunRecord::Hash& hash : record_.hashes()) {
     j["hashes"].push_back({{"cycle", hash.cycle}, {"state", fmt::format("{:016x}", hash.value)}});

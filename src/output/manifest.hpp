@@ -13,8 +13,8 @@
 namespace abut::output {
 
 /// Written before the first cycle (outcome "running": that is what a killed run leaves) and at the end, each time as a
-/// whole. Keys: abut, decks, settings, model, findings, started, files; at the end also outcome, timings, energies, worst,
-/// hashes (16 hexadecimal digits). Numbers that are not finite become null.
+/// whole. Keys: abut, decks, settings, model, findings, contact (findings of the contact inspection with all ids), started, files; at the
+/// end also outcome, timings, energies, worst, hashes (16 hexadecimal digits). Numbers that are not finite become null.
 class Manifest final : public cycle::Sink {
  public:
   /// @param timings  asked for at the end; may be empty

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "output/animation.hpp"
+#include "output/contact_watch.hpp"
 #include "output/listing.hpp"
 #include "output/manifest.hpp"
 #include "output/time_history.hpp"
@@ -12,6 +13,7 @@ namespace abut::output {
 std::unique_ptr<SinkSet> open_run_outputs(const RunFolder& folder, const RunInfo& info, std::function<std::vector<PhaseTime>()> timings) {
   create_folder(folder.directory);
   auto sinks = std::make_unique<SinkSet>();
+  sinks->add(std::make_unique<ContactWatch>(info.during));  // first: the others write what it says
   sinks->add(std::make_unique<Listing>(folder, info));
   sinks->add(std::make_unique<TimeHistory>(folder));
   sinks->add(std::make_unique<Animation>(folder));

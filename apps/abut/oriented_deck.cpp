@@ -1,0 +1,90 @@
+#include "oriented_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+#include "core/diagnostic.hpp"
+
+namespace abut::app {
+
+namespace {
+
+/// Puts an integer right-aligned into columns first..first + 9 (1-based) of a card.
+void put(std::string& card, std::size_t first, Id value) {
+  std::string ending;
+  if (!card.empty() && card.back() == '\r') {
+    ending = "\r";
+    card.pop_back();
+  }
+  if (card.size() < first + 9) card.resize(first + 9, ' ');
+  card.replace(first - 1, 10, fmt::format("{:>10}", value));
+  card += ending;
+}
+
+/// Line number of the n-th card (1-based) after the keyword line.
+std::size_t card_line(const std::vector<std::string>& lines, std::size_t keyword, int n) {
+  std::size_t line = keyword;
+  while (n > 0 && ++line < lines.size()) {
+    if (lines[line].empty() || (lines[line][0] != '#' && lines[line][0] != '$')) --n;
+  }
+  if (line >= lines.size()) throw RunError("the deck ends inside an interface");
+  return line;
+}
+
+}  // namespace
+
+void write_oriented_deck(const std::filesystem::path& starter, const std::filesystem::path& target, const model::Model& model,
+                         const std::vector<init::TurnedSurface>& turned) {
+  std::ifstream in(starter, std::ios::binary);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  if (lines.empty()) throw RunError("cannot read " + starter.string());
+
+  Id next = 1;
+  for (const model::Surface& s : model.surfaces) next = std::max(next, s.id + 1);
+  std::string added;
+  for (const init::TurnedSurface& t : turned) {
+    if (t.segments.empty()) continue;
+    const model::Interface& card = model.interfaces[static_cast<std::size_t>(t.interface)];
+    if (model.version < 50) throw RunError("--write-deck needs a deck of version 50 or later");
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(card.place.file, starter, ignored))
+      throw RunError(fmt::format("interface {} is defined in {}, not in the Starter deck itself: --write-deck cannot change it", card.id,
+                                 card.place.file));
+    const auto keyword = static_cast<std::size_t>(card.place.line) - 1;
+    const auto* t3 = std::get_if<model::InterfaceType3>(&card.type);
+    const auto* t5 = std::get_if<model::InterfaceType5>(&card.type);
+    const Index surface = t3 != nullptr ? (t.side == 0 ? t3->surface_1 : t3->surface_2) : t5->surface;
+    put(lines[card_line(lines, keyword, 2)], t.side == 0 ? 1 : 11, next);
+    put(lines[card_line(lines, keyword, 4)], t.side == 0 ? 11 : 21, 2);
+    fmt::format_to(std::back_inserter(added), "/SURF/SEG/{}\nsurface {} turned to face the other side of interface {}\n", next,
+                   t.surface_id, card.id);
+    Id number = 0;
+    for (const model::Segment& s : model.surfaces[static_cast<std::size_t>(surface)].segments) {
+      fmt::format_to(std::back_inserter(added), "{:>10}", ++number);
+      for (const Index n : s.nodes) fmt::format_to(std::back_inserter(added), "{:>10}", model.node_id[static_cast<std::size_t>(n)]);
+      added += '\n';
+    }
+    ++next;
+  }
+
+  std::ofstream out(target, std::ios::binary);
+  bool written = false;
+  for (const std::string& line : lines) {
+    if (line.rfind("/END", 0) == 0 && !written) {
+      out << added;
+      written = true;
+    }
+    out << line << '\n';
+  }
+  if (!written) out << added;
+  out.flush();
+  if (!out) throw RunError("cannot write " + target.string());
+}
+
+}  // namespace abut::app

@@ -1,0 +1,18 @@
+// Writes the Starter deck with the surfaces that --orient auto turned.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "init/contact_inspection.hpp"
+#include "model/model.hpp"
+
+namespace abut::app {
+
+/// A copy of `starter` in which each interface of `turned` names new /SURF/SEG surfaces that hold its segments as the model has
+/// them now (Irs/Irm 2: left as they are). Everything else is kept byte for byte.
+/// @throws RunError when an interface is defined in an include file or in a layout before version 50, or the file cannot be written
+void write_oriented_deck(const std::filesystem::path& starter, const std::filesystem::path& target, const model::Model& model,
+                         const std::vector<init::TurnedSurface>& turned);
+
+}  // namespace abut::app

@@ -1,0 +1,185 @@
+#include "contact/inspect/facing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::contact {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr double clear_cosine = 0.5;  // less than this between normal and line of sight decides nothing
+constexpr double clear_share = 0.25;  // less than this net share of the votes decides nothing
+constexpr double touching = 1e-6;     // of the facets' size: no line of sight
+
+struct Votes {
+  double sum = 0.0, weight = 0.0;
+};
+
+double size_of(const Shape& s, Index f) { return std::sqrt(s.area(f)); }
+
+// Smallest distance of the centres of `a` to `b`.
+double smallest_distance(const Shape& a, const Shape& b, double best) {
+  for (Index i = 0; i < a.count(); ++i) {
+    const NearPoint p = b.nearest(a.centre(i), best);
+    if (p.found()) best = std::min(best, std::sqrt(p.squared));
+  }
+  return best;
+}
+
+class Looker {
+ public:
+  Looker(const Shape& own, const Shape& other, double reach) : own_(own), other_(other), reach_(reach), votes_(at(own.count())) {
+    views_.overlaps.assign(at(own.count()), 0);
+    views_.alike.assign(at(own.count()), 0);
+  }
+
+  Views run() {
+    for (Index f = 0; f < own_.count(); ++f) from_own(f);
+    for (Index g = 0; g < other_.count(); ++g) from_other(g);
+    Facing& facing = views_.facing;
+    facing.facet.assign(at(own_.count()), 0);
+    for (Index f = 0; f < own_.count(); ++f) {
+      const Votes& v = votes_[at(f)];
+      if (v.weight == 0.0 || std::abs(v.sum) < clear_share * v.weight) continue;
+      facing.facet[at(f)] = v.sum > 0.0 ? 1 : -1;
+      (v.sum > 0.0 ? facing.area_facing : facing.area_away) += own_.area(f);
+    }
+    return std::move(views_);
+  }
+
+ private:
+  const Shape& own_;
+  const Shape& other_;
+  double reach_;
+  std::vector<Votes> votes_;
+  Views views_;
+
+  // The facet looks from its centre at the nearest point of the other side.
+  void from_own(Index f) {
+    if (squared_norm(own_.normal(f)) == 0.0) return;
+    const Vec3 centre = own_.centre(f);
+    const NearPoint p = other_.nearest(centre, reach_);
+    if (!p.found() || own_.hides(centre, p.point, f)) return;
+    vote(f, p.point - centre, p.item);
+  }
+
+  // The centre of a facet of the other side (or a held node) is seen from its nearest point on this one.
+  void from_other(Index g) {
+    const Vec3 centre = other_.centre(g);
+    const NearPoint p = own_.nearest(centre, reach_);
+    if (!p.found() || squared_norm(own_.normal(p.item)) == 0.0 || other_.hides(centre, p.point, g)) return;
+    vote(p.item, centre - p.point, g);
+  }
+
+  void vote(Index f, const Vec3& sight, Index seen) {
+    const Vec3 normal = own_.normal(f);
+    const double distance = norm(sight);
+    if (distance <= touching * size_of(own_, f)) {
+      touch(f, seen);
+      return;
+    }
+    const double cosine = dot(normal, sight) / distance;
+    if (std::abs(cosine) < clear_cosine) return;
+    if (cosine < 0.0 && own_.outward(f) > 0 && distance < 0.5 * size_of(own_, f)) {
+      views_.overlaps[at(f)] = 1;  // the surfaces of two bodies have passed each other: their normals are right
+      return;
+    }
+    if (cosine < 0.0) views_.away_distance = std::max(views_.away_distance, distance);
+    votes_[at(f)].sum += cosine;
+    votes_[at(f)].weight += std::abs(cosine);
+  }
+
+  // Without a distance there is no line of sight: a body tells which side is out, two shells only whether they agree.
+  void touch(Index f, Index seen) {
+    const int outward = own_.outward(f);
+    if (outward != 0) {
+      votes_[at(f)].sum += outward;
+      votes_[at(f)].weight += 1.0;
+    } else if (!other_.is_nodes() && dot(own_.normal(f), other_.normal(seen)) > clear_cosine) {
+      views_.alike[at(f)] = 1;
+    }
+  }
+};
+
+}  // namespace
+
+BothViews look(const std::array<Shape, 2>& shapes, double gap) {
+  BothViews out;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto n = at(shapes[k].count());
+    if (!shapes[k].is_nodes()) out.side[k].facing.facet.assign(n, 0);
+    out.side[k].overlaps.assign(n, 0);
+    out.side[k].alike.assign(n, 0);
+  }
+  if (shapes[0].count() == 0 || shapes[1].count() == 0) return out;
+  double best = 1e150;
+  best = smallest_distance(shapes[0], shapes[1], best);
+  best = smallest_distance(shapes[1], shapes[0], best);
+  out.smallest = best;
+  double size = 1e300;
+  for (const Shape& s : shapes) {
+    if (!s.is_nodes()) size = std::min(size, s.mean_size());
+  }
+  out.reach = best + std::max(gap, 2.0 * size);
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!shapes[k].is_nodes()) out.side[k] = Looker(shapes[k], shapes[1 - k], out.reach).run();
+  }
+  return out;
+}
+
+std::vector<std::array<PieceVote, 2>> piece_votes(const Shape& shape, const Facing& facing) {
+  std::vector<std::array<PieceVote, 2>> votes(at(shape.piece_count()));
+  for (Index f = 0; f < shape.count(); ++f) {
+    const int answer = facing.facet[at(f)];
+    if (answer == 0) continue;
+    auto& piece = votes[at(shape.piece(f))];
+    const bool turned = shape.turned(f);
+    (answer > 0 ? piece[turned].facing : piece[turned].away) += shape.area(f);
+    piece[0].score += (turned ? -answer : answer) * shape.area(f);
+    piece[0].weight += shape.area(f);
+  }
+  return votes;
+}
+
+std::array<Facing, 2> facing(const InspectionInput& input) {
+  const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
+  BothViews views = look(shapes, input.gap);
+  for (Views& v : views.side) v.facing.distance = views.smallest;
+  return {std::move(views.side[0].facing), std::move(views.side[1].facing)};
+}
+
+Orientation orient(const InspectionInput& input) {
+  const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
+  const BothViews views = look(shapes, input.gap);
+  Orientation out;
+  if (input.both_sides) return out;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Shape& shape = shapes[k];
+    if (shape.is_nodes()) continue;
+    const auto votes = piece_votes(shape, views.side[k].facing);
+    std::vector<std::array<double, 2>> area(votes.size(), {0.0, 0.0});
+    for (Index f = 0; f < shape.count(); ++f) area[at(shape.piece(f))][shape.turned(f)] += shape.area(f);
+    for (Index f = 0; f < shape.count(); ++f) {
+      const Index piece = shape.piece(f);
+      const PieceVote& vote = votes[at(piece)][0];
+      const auto& areas = area[at(piece)];
+      if (squared_norm(shape.normal(f)) == 0.0) continue;
+      bool turn_turned = true;  // the piece takes the orientation of its first facet
+      if (shape.one_sided(piece) || (vote.weight > 0.0 && std::abs(vote.score) < 0.5 * vote.weight)) {
+        out.ambiguous[k] = true;
+        continue;
+      }
+      if (vote.weight > 0.0) {
+        turn_turned = vote.score > 0.0;
+      } else if (areas[1] > areas[0]) {  // nothing near: the larger part keeps its orientation
+        turn_turned = false;
+      }
+      if (shape.turned(f) == turn_turned) out.flip[k].push_back(f);
+    }
+    for (const std::uint8_t alike : views.side[k].alike) out.ambiguous[k] = out.ambiguous[k] || alike != 0;
+  }
+  return out;
+}
+
+}  // namespace abut::contact

@@ -1,0 +1,35 @@
+// The facing rule (docs/findings/index.md): what each facet sees of the other side.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "contact/inspect/shape.hpp"
+
+namespace abut::contact {
+
+/// Answers per facet of one side.
+struct Views {
+  Facing facing;
+  std::vector<std::uint8_t> overlaps;  ///< #F: the other side lies inside the body behind the facet, near its face
+  std::vector<std::uint8_t> alike;     ///< #F: touches a facet of the other side whose normal points the same way
+  double away_distance = 0.0;          ///< largest distance of a facet that faces away to what it faces away from
+};
+
+struct BothViews {
+  std::array<Views, 2> side;
+  double reach = 0.0;       ///< distance within which facets count as near
+  double smallest = 1e300;  ///< smallest distance of a facet's centre (a node) to the other side
+};
+
+[[nodiscard]] BothViews look(const std::array<Shape, 2>& shapes, double gap);
+
+/// Net answer of a piece in one of its two orientations, by area.
+struct PieceVote {
+  double facing = 0.0, away = 0.0;   ///< as the facets are
+  double score = 0.0, weight = 0.0;  ///< with all facets turned to the orientation of the piece's first facet
+};
+/// #pieces by 2 (orientation within the piece): `facing`, `away`; score and weight are in [0] for the whole piece.
+[[nodiscard]] std::vector<std::array<PieceVote, 2>> piece_votes(const Shape& shape, const Facing& facing);
+
+}  // namespace abut::contact

@@ -1,0 +1,92 @@
+// Nearest-first search over boxes: no radius has to be known beforehand.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "contact/search/box_tree.hpp"
+
+namespace abut::contact {
+
+/// Squared distance of a point to a box; 0 inside.
+[[nodiscard]] inline double squared_distance(const Bounds& box, const Vec3& p) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double d = std::max({0.0, box.low[k] - p[k], p[k] - box.high[k]});
+    sum += d * d;
+  }
+  return sum;
+}
+
+class NearestTree {
+ public:
+  void build(const std::vector<Bounds>& boxes) {
+    items_.resize(boxes.size());
+    std::iota(items_.begin(), items_.end(), 0);
+    nodes_.clear();
+    if (!boxes.empty()) split(boxes, 0, static_cast<Index>(boxes.size()));
+  }
+
+  /// Visits items until none can be nearer than sqrt(limit); `visit(item, limit)` lowers the limit when it finds something nearer.
+  template <class Visit>
+  void search(const Vec3& from, double limit, Visit&& visit) const {
+    if (!nodes_.empty()) descend(0, from, limit, visit);
+  }
+
+ private:
+  struct Node {
+    Bounds bounds;
+    Index first = 0, second = 0, count = 0;  // leaf (count > 0): first item; else two children
+  };
+  std::vector<Node> nodes_;
+  std::vector<Index> items_;
+
+  Index split(const std::vector<Bounds>& boxes, Index first, Index last) {
+    const auto number = static_cast<Index>(nodes_.size());
+    nodes_.emplace_back();
+    Node node;
+    Bounds centres;
+    const auto centre = [&boxes](Index i) {
+      const Bounds& b = boxes[static_cast<std::size_t>(i)];
+      return 0.5 * (b.low + b.high);
+    };
+    for (Index k = first; k < last; ++k) {
+      const Index i = items_[static_cast<std::size_t>(k)];
+      node.bounds.include(boxes[static_cast<std::size_t>(i)]);
+      centres.include(centre(i));
+    }
+    if (last - first <= 4) {
+      node.first = first;
+      node.count = last - first;
+    } else {
+      const Vec3 width = centres.high - centres.low;
+      const int axis = width.x >= width.y && width.x >= width.z ? 0 : width.y >= width.z ? 1 : 2;
+      const Index middle = first + (last - first) / 2;
+      std::nth_element(items_.begin() + first, items_.begin() + middle, items_.begin() + last, [&](Index a, Index b) {
+        const double ca = centre(a)[axis], cb = centre(b)[axis];
+        return ca < cb || (ca == cb && a < b);
+      });
+      node.first = split(boxes, first, middle);
+      node.second = split(boxes, middle, last);
+    }
+    nodes_[static_cast<std::size_t>(number)] = node;
+    return number;
+  }
+
+  template <class Visit>
+  void descend(Index number, const Vec3& from, double& limit, Visit& visit) const {
+    const Node& node = nodes_[static_cast<std::size_t>(number)];
+    if (node.count > 0) {
+      for (Index k = node.first; k < node.first + node.count; ++k) visit(items_[static_cast<std::size_t>(k)], limit);
+      return;
+    }
+    const double d1 = squared_distance(nodes_[static_cast<std::size_t>(node.first)].bounds, from);
+    const double d2 = squared_distance(nodes_[static_cast<std::size_t>(node.second)].bounds, from);
+    const bool first_nearer = d1 <= d2;
+    if (std::min(d1, d2) <= limit) descend(first_nearer ? node.first : node.second, from, limit, visit);
+    if (std::max(d1, d2) <= limit) descend(first_nearer ? node.second : node.first, from, limit, visit);
+  }
+};
+
+}  // namespace abut::contact

@@ -1,0 +1,299 @@
+#include "init/contact_inspection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "init/contact_setup.hpp"
+
+namespace abut::init {
+
+namespace {
+
+using model::ElementKind;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t listed = 20;
+
+/// +1 when the segment's normal points out of the solid behind it, -1 into it, 0 for shells.
+std::int8_t outward_of(const model::Model& model, const model::Segment& s, std::span<const Vec3> x) {
+  std::span<const Index> nodes;
+  if (s.element.kind == ElementKind::brick) nodes = model.bricks.nodes[at(s.element.index)];
+  if (s.element.kind == ElementKind::tetra) nodes = model.tetras.nodes[at(s.element.index)];
+  if (nodes.empty()) return 0;
+  Vec3 body, face;
+  for (const Index n : nodes) body += x[at(n)];
+  for (const Index n : s.nodes) face += x[at(n)];
+  const Vec3 inwards = body / static_cast<double>(nodes.size()) - face / 4.0;
+  const Vec3 normal = cross(x[at(s.nodes[2])] - x[at(s.nodes[0])], x[at(s.nodes[3])] - x[at(s.nodes[1])]);
+  const double d = dot(normal, inwards);
+  return d < 0.0 ? std::int8_t{1} : (d > 0.0 ? std::int8_t{-1} : std::int8_t{0});
+}
+
+std::array<Id, 4> ids_of(const model::Model& model, const std::array<Index, 4>& nodes) {
+  std::array<Id, 4> ids{};
+  for (std::size_t k = 0; k < 4; ++k) ids[k] = model.node_id[at(nodes[k])];
+  return ids;
+}
+
+std::string text_of(const std::array<Id, 4>& s) {
+  return s[2] == s[3] ? fmt::format("({} {} {})", s[0], s[1], s[2]) : fmt::format("({} {} {} {})", s[0], s[1], s[2], s[3]);
+}
+
+/// "1, 2, 3 (and 5 more)"
+template <class T, class Text>
+std::string list_of(const std::vector<T>& items, Text text) {
+  std::string s;
+  for (std::size_t i = 0; i < std::min(items.size(), listed); ++i) s += (i > 0 ? ", " : "") + text(items[i]);
+  if (items.size() > listed) s += fmt::format(" (and {} more)", items.size() - listed);
+  return s;
+}
+
+std::string segments_text(const std::vector<std::array<Id, 4>>& segments) {
+  return list_of(segments, [](const std::array<Id, 4>& s) { return text_of(s); });
+}
+
+/// Contact nodes of one interface with their direction of contact (zero for held nodes: every direction counts).
+struct ContactNode {
+  Index node;
+  Vec3 normal;
+  double size;  ///< of the facets around it
+};
+
+std::vector<ContactNode> contact_nodes(const contact::InspectionInput& input, std::span<const Vec3> x) {
+  std::vector<ContactNode> all;
+  for (const contact::InspectedSide& side : input.side) {
+    for (const contact::Facet& f : side.facets) {
+      const Vec3 doubled = cross(x[at(f.node[2])] - x[at(f.node[0])], x[at(f.node[3])] - x[at(f.node[1])]);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(f.corners()); ++k)
+        all.push_back(
+            {f.node[k], f.is_triangle() ? cross(x[at(f.node[1])] - x[at(f.node[0])], x[at(f.node[2])] - x[at(f.node[0])]) : doubled, 0.0});
+    }
+    if (side.facets.empty()) {
+      for (const Index n : side.nodes) all.push_back({n, {}, 0.0});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const ContactNode& a, const ContactNode& b) { return a.node < b.node; });
+  std::vector<ContactNode> out;
+  for (const ContactNode& c : all) {
+    if (out.empty() || out.back().node != c.node) out.push_back({c.node, {}, 0.0});
+    out.back().normal += c.normal;
+    out.back().size = std::max(out.back().size, std::sqrt(0.5 * norm(c.normal)));
+  }
+  for (ContactNode& c : out) {
+    const double length = norm(c.normal);
+    if (length > 0.0) c.normal = c.normal / length;
+  }
+  return out;
+}
+
+/// Directions in which nodes cannot move freely: an orthonormal set per node.
+class HeldDirections {
+ public:
+  explicit HeldDirections(const model::Model& model) : held_(model.node_id.size()) {
+    const auto axis = [&](Index skew, int k) {
+      if (skew != no_index) return model.skews[at(skew)].axes[static_cast<std::size_t>(k)];
+      return std::array<Vec3, 3>{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}[static_cast<std::size_t>(k)];
+    };
+    for (const model::BoundaryCondition& b : model.boundary_conditions) {
+      for (int k = 0; k < 3; ++k) {
+        if (!b.translation[static_cast<std::size_t>(k)]) continue;
+        for (const Index n : b.nodes) add(n, axis(b.skew, k));
+      }
+    }
+    for (const model::ImposedMotion& m : model.imposed_motions) {
+      if (m.direction > 2) continue;
+      for (const Index n : m.nodes) add(n, axis(m.skew, m.direction));
+    }
+  }
+  /// Nearly all of `direction` is held (any direction, when it is zero).
+  [[nodiscard]] bool holds(Index node, const Vec3& direction) const {
+    const auto& held = held_[at(node)];
+    if (held.empty()) return false;
+    if (squared_norm(direction) == 0.0) return held.size() == 3;
+    double share = 0.0;
+    for (const Vec3& h : held) share += dot(h, direction) * dot(h, direction);
+    return share > 0.81;
+  }
+
+ private:
+  std::vector<std::vector<Vec3>> held_;
+  void add(Index node, Vec3 direction) {
+    auto& held = held_[at(node)];
+    for (const Vec3& h : held) direction -= dot(direction, h) * h;
+    const double length = norm(direction);
+    if (length > 1e-6) held.push_back(direction / length);
+  }
+};
+
+void kinematic_findings(const model::Model& model, const HeldDirections& held, std::span<const ContactNode> nodes, std::span<const Vec3> x,
+                        const std::vector<std::uint8_t>& in_body, std::vector<contact::Finding>& out) {
+  contact::Finding wall, condition, body;
+  for (const ContactNode& c : nodes) {
+    if (held.holds(c.node, c.normal)) condition.nodes.push_back(c.node);
+    if (in_body[at(c.node)] != 0) body.nodes.push_back(c.node);
+  }
+  for (const model::RigidWall& w : model.rigid_walls) {
+    for (const Index n : w.nodes) {
+      const auto found = std::lower_bound(nodes.begin(), nodes.end(), n, [](const ContactNode& a, Index b) { return a.node < b; });
+      if (found == nodes.end() || found->node != n) continue;
+      const Vec3 point = w.node != no_index ? x[at(w.node)] : w.point;
+      const double distance = dot(x[at(n)] - point, w.normal);
+      const bool along = squared_norm(found->normal) == 0.0 || std::abs(dot(found->normal, w.normal)) > 0.7;
+      if (along && distance < 0.1 * found->size) wall.nodes.push_back(n);
+    }
+  }
+  std::sort(wall.nodes.begin(), wall.nodes.end());
+  wall.nodes.erase(std::unique(wall.nodes.begin(), wall.nodes.end()), wall.nodes.end());
+  const auto count = static_cast<double>(nodes.size());
+  const auto finish = [&](contact::Finding& f, contact::Severity severity, std::string_view code, std::string_view by, const char* advice) {
+    if (f.nodes.empty()) return;
+    f.severity = severity;
+    f.code = code;
+    f.measure_name = "share of the interface's nodes";
+    f.measure = static_cast<double>(f.nodes.size()) / count;
+    f.what = fmt::format("{} {} also bound {}", f.nodes.size(), f.nodes.size() == 1 ? "contact node is" : "contact nodes are", by);
+    f.advice = advice;
+    out.push_back(std::move(f));
+  };
+  finish(wall, contact::Severity::warning, kinematic_codes[0], "by a rigid wall across the contact",
+         "The wall overrides what the contact asks for: leave these nodes out of the wall, or let the wall alone carry them.");
+  finish(condition, contact::Severity::note, kinematic_codes[1], "by a boundary condition or an imposed motion along the normal",
+         "Contact forces on them go into the support and move nothing; leave them out of the condition if they are to give way.");
+  finish(body, contact::Severity::note, kinematic_codes[2], "by a rigid body",
+         "They move with the body, whose mass then counts for the contact; the interface time step is that of the body.");
+}
+
+Severity severity_of(contact::Severity s) {
+  return s == contact::Severity::error ? Severity::error : (s == contact::Severity::warning ? Severity::warning : Severity::note);
+}
+
+}  // namespace
+
+InspectedInterface::InspectedInterface(const model::Model& model, const model::Interface& card, std::span<const Vec3> x)
+    : stiffness_scale_(card.stfac), gap_(card.gap) {
+  if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) {
+    surface_ = {t3->surface_1, t3->surface_2};
+  } else if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
+    surface_[1] = t5->surface;
+    nodes_ = t5->nodes;
+  } else if (const auto* t7 = std::get_if<model::InterfaceType7>(&card.type)) {
+    surface_[1] = t7->surface;
+    nodes_ = t7->nodes;
+    both_sides_ = true;
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (surface_[k] == no_index) continue;
+    for (const model::Segment& s : model.surfaces[at(surface_[k])].segments) {
+      facets_[k].push_back({s.nodes});
+      stiffness_[k].push_back(segment_stiffness(model, s, x));
+      outward_[k].push_back(outward_of(model, s, x));
+    }
+  }
+  const auto* t7 = std::get_if<model::InterfaceType7>(&card.type);
+  if (t7 != nullptr && t7->istf == 1) stiffness_[1].clear();  // the card gives the stiffness
+}
+
+contact::InspectionInput InspectedInterface::input(std::span<const Vec3> x) const {
+  contact::InspectionInput in;
+  for (std::size_t k = 0; k < 2; ++k) in.side[k] = {facets_[k], {}, stiffness_[k], outward_[k]};
+  in.side[0].nodes = nodes_;
+  in.both_sides = both_sides_;
+  in.stiffness_scale = stiffness_scale_;
+  in.gap = gap_;
+  in.x = x;
+  return in;
+}
+
+std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state) {
+  std::vector<ContactFinding> out;
+  if (model.interfaces.empty()) return out;
+  const std::span<const Vec3> x = state.x.empty() ? std::span<const Vec3>(model.node_x) : state.x;
+  const HeldDirections held(model);
+  std::vector<std::uint8_t> in_body(model.node_id.size(), 0);
+  for (const model::RigidBody& b : model.rigid_bodies) {
+    if (!b.active) continue;
+    in_body[at(b.main)] = 1;
+    for (const Index n : b.nodes) in_body[at(n)] = 1;
+  }
+  for (const model::Interface& card : model.interfaces) {
+    const InspectedInterface inspected(model, card, x);
+    contact::InspectionInput input = inspected.input(x);
+    input.v = state.v;
+    input.mass = state.mass;
+    input.element_step = state.element_step;
+    std::vector<contact::Finding> findings = contact::inspect(input);
+    const std::vector<ContactNode> nodes = contact_nodes(input, x);
+    kinematic_findings(model, held, nodes, x, in_body, findings);
+    for (contact::Finding& f : findings) {
+      ContactFinding c;
+      c.interface_id = card.id;
+      if (f.side >= 0 && inspected.surface(f.side) != no_index) c.surface_id = model.surfaces[at(inspected.surface(f.side))].id;
+      for (const Index n : f.nodes) c.nodes.push_back(model.node_id[at(n)]);
+      for (const Index s : f.facets) c.segments.push_back(ids_of(model, input.side[static_cast<std::size_t>(f.side)].facets[at(s)].node));
+      c.place = card.place;
+      c.finding = std::move(f);
+      out.push_back(std::move(c));
+    }
+  }
+  return out;
+}
+
+Diagnostic to_diagnostic(const ContactFinding& c) {
+  const contact::Finding& f = c.finding;
+  std::string text = c.surface_id != 0 ? fmt::format("surface {}: ", c.surface_id) : std::string();
+  text += f.what;
+  if (!c.segments.empty()) text += ": segments " + segments_text(c.segments);
+  if (!c.nodes.empty()) {
+    text += (c.segments.empty() ? ": nodes " : "; nodes ") + list_of(c.nodes, [](Id id) { return fmt::format("{}", id); });
+  }
+  text += fmt::format(". {} [{}]", f.advice, f.code);
+  return {severity_of(f.severity), f.code, c.place, std::move(text)};
+}
+
+std::vector<TurnedSurface> orient_contacts(model::Model& model) {
+  std::vector<TurnedSurface> out;
+  for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+    const InspectedInterface inspected(model, model.interfaces[i], model.node_x);
+    const contact::InspectionInput input = inspected.input(model.node_x);
+    const contact::Orientation orientation = contact::orient(input);
+    for (int side = 0; side < 2; ++side) {
+      const auto k = static_cast<std::size_t>(side);
+      if (inspected.surface(side) == no_index || (orientation.flip[k].empty() && !orientation.ambiguous[k])) continue;
+      model::Surface copy = model.surfaces[at(inspected.surface(side))];
+      TurnedSurface turned{static_cast<Index>(i), side, copy.id, copy.segments.size(), {}, orientation.ambiguous[k]};
+      for (const Index f : orientation.flip[k]) {
+        auto& nodes = copy.segments[at(f)].nodes;
+        turned.segments.push_back(ids_of(model, nodes));
+        nodes = contact::reversed({nodes}).node;
+      }
+      if (!turned.segments.empty()) {
+        const auto index = static_cast<Index>(model.surfaces.size());
+        model.surfaces.push_back(std::move(copy));
+        if (auto* t3 = std::get_if<model::InterfaceType3>(&model.interfaces[i].type)) (side == 0 ? t3->surface_1 : t3->surface_2) = index;
+        if (auto* t5 = std::get_if<model::InterfaceType5>(&model.interfaces[i].type)) t5->surface = index;
+      }
+      out.push_back(std::move(turned));
+    }
+  }
+  return out;
+}
+
+Diagnostic to_diagnostic(const model::Model& model, const TurnedSurface& turned) {
+  std::string text = fmt::format("surface {}: ", turned.surface_id);
+  if (!turned.segments.empty()) {
+    text += fmt::format("{} of {} segments were turned to face the other side: {}", turned.segments.size(), turned.total,
+                        segments_text(turned.segments));
+  }
+  if (turned.ambiguous) {
+    text += std::string(turned.segments.empty() ? "" : "; ") + "part of it has no clear direction and was left as it is: orient it by hand";
+  }
+  return {turned.ambiguous ? Severity::warning : Severity::note, "contact.oriented", model.interfaces[at(turned.interface)].place,
+          text + ". [contact.oriented]"};
+}
+
+}  // namespace abut::init

@@ -1,0 +1,110 @@
+#include "output/contact_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace abut::output {
+
+namespace {
+
+constexpr int looks = 100;             // per run
+constexpr double deep_share = 0.95;    // of the gap
+constexpr double energy_share = 0.02;  // of the largest energy term
+
+double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x) {
+  double sum = 0.0;
+  for (const contact::Facet& f : facets) {
+    const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(f.node[k])]; };
+    sum += std::sqrt(0.5 * norm(cross(at(2) - at(0), (f.is_triangle() ? at(2) : at(3)) - at(1))));
+  }
+  return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
+}
+
+}  // namespace
+
+void ContactWatch::begin(const cycle::Snapshot& first) {
+  interfaces_.clear();
+  const std::span<const Vec3> x(first.state->x);
+  for (const model::Interface& card : first.model->interfaces) {
+    Watched w;
+    if (!std::holds_alternative<model::InterfaceType7>(card.type)) {
+      w.geometry = std::make_unique<init::InspectedInterface>(*first.model, card, x);
+      const contact::InspectionInput input = w.geometry->input(x);
+      const auto facing = contact::facing(input);
+      w.size = 1e300;
+      for (std::size_t k = 0; k < 2; ++k) {
+        w.facing_at_start[k] = facing[k].fraction();
+        if (!input.side[k].facets.empty()) w.size = std::min(w.size, mean_size(input.side[k].facets, x));
+      }
+    }
+    interfaces_.push_back(std::move(w));
+  }
+}
+
+void ContactWatch::cycle(const cycle::Snapshot& now) {
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    Watched& w = interfaces_[i];
+    const cycle::InterfaceResult& r = now.interfaces[i];
+    const model::Interface& card = now.model->interfaces[i];
+    if (!w.crossed && r.crossed > 0) {
+      w.crossed = true;
+      say(now, i, "contact.crossed", r.crossed,
+          fmt::format("{} would have jumped through the surface within one step and {} caught; lower the time step or make the gap larger",
+                      r.crossed == 1 ? "1 node" : fmt::format("{} nodes", r.crossed), r.crossed == 1 ? "was" : "were"));
+    }
+    const double limit = card.gap > 0.0 ? deep_share * card.gap : 0.5 * w.size;
+    if (!w.deep && w.geometry != nullptr && r.largest_penetration > limit) {
+      w.deep = true;
+      say(now, i, "contact.deep_penetration", r.largest_penetration / limit,
+          fmt::format("a node has penetrated by {:.4g} ({}); raise Stfac, the gap, or refine the mesh", r.largest_penetration,
+                      card.gap > 0.0 ? fmt::format("{:.3g} of the gap", r.largest_penetration / card.gap)
+                                     : fmt::format("{:.3g} of a segment", r.largest_penetration / w.size)));
+    }
+    const double largest = now.balance->largest;
+    if (!w.made && largest > 0.0 && std::abs(r.cx) > energy_share * largest) {
+      w.made = true;
+      say(now, i, "contact.energy_made", r.cx / largest,
+          fmt::format(
+              "the interface has {} {:.3g} % of the largest energy; a smaller time step (/DT scale) shows whether the result depends on it",
+              r.cx > 0.0 ? "made" : "lost", 100.0 * std::abs(r.cx) / largest));
+    }
+  }
+  if (now.state->times.t >= next_look_) look(now);
+}
+
+void ContactWatch::look(const cycle::Snapshot& now) {
+  const double t = now.state->times.t;
+  next_look_ = std::max(t, next_look_ + now.model->controls.t_end / looks);
+  const std::span<const Vec3> x(now.state->x);
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    Watched& w = interfaces_[i];
+    if (w.geometry == nullptr || w.turned) continue;
+    const model::Interface& card = now.model->interfaces[i];
+    // While nodes are in contact the surfaces feel each other, whatever small overlaps make of the facing rule.
+    if (t < card.t_start || t > card.t_stop || now.interfaces[i].in_contact > 0) continue;
+    const auto facing = contact::facing(w.geometry->input(x));
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (facing[k].distance > card.gap + w.size || !(w.facing_at_start[k] >= 0.5) || !(facing[k].fraction() < 0.5)) continue;
+      w.turned = true;
+      say(now, i, "contact.turned_away", facing[k].fraction(),
+          fmt::format("the normals of surface {} have turned away: only {:.3g} % of it near the other side faces it (at the start {:.3g} "
+                      "%), at a distance "
+                      "of {:.4g}; contact is not felt there any more: choose the surfaces for the deformed shape too",
+                      now.model->surfaces[static_cast<std::size_t>(w.geometry->surface(static_cast<int>(k)))].id,
+                      100.0 * facing[k].fraction(), 100.0 * w.facing_at_start[k], facing[k].distance));
+    }
+  }
+}
+
+void ContactWatch::say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text) {
+  const model::Interface& card = now.model->interfaces[interface];
+  const double t = now.state->times.t;
+  Diagnostic d{Severity::warning, code, card.place,
+               fmt::format("at time {:.6g} (cycle {}): {}. [{}]", t, now.state->times.cycle, text, code)};
+  log_->push_back({std::move(d), card.id, t, now.state->times.cycle, measure});
+}
+
+}  // namespace abut::output

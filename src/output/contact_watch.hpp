@@ -1,0 +1,39 @@
+// Looks at the contacts while a run goes on (docs/findings/index.md, "During the run"): T29, T32, T33.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cycle/sink.hpp"
+#include "init/contact_inspection.hpp"
+#include "output/run_info.hpp"
+
+namespace abut::output {
+
+/// Adds to RunInfo::during what it finds, each code once per interface (and surface). Geometry is looked at a hundred times in a run.
+class ContactWatch final : public cycle::Sink {
+ public:
+  explicit ContactWatch(std::shared_ptr<RunFindings> log) : log_(std::move(log)) {}
+  void begin(const cycle::Snapshot& first) override;
+  void cycle(const cycle::Snapshot& now) override;
+  void end(const cycle::Outcome&) override {}
+
+ private:
+  struct Watched {
+    std::unique_ptr<init::InspectedInterface> geometry;  ///< none for TYPE7, whose normals do not matter
+    std::array<double, 2> facing_at_start{};             ///< NaN: undecided
+    double size = 0.0;                                   ///< mean facet size of the finer side
+    bool turned = false, deep = false, made = false, crossed = false;
+  };
+  std::shared_ptr<RunFindings> log_;
+  std::vector<Watched> interfaces_;
+  double next_look_ = 0.0;
+
+  void look(const cycle::Snapshot& now);
+  void say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text);
+};
+
+}  // namespace abut::output

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Every deck of examples/decks/findings provokes its finding, its twin does not; --orient auto mends what it can.
+
+usage: check_findings.py ABUT FOLDER
+
+Standard library only. Exit status 0 when all holds.
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+# finding: (deck, severity, twin)
+BEFORE = {
+    "contact.normals_away": ("normals_away", "error", "sound"),
+    "contact.normals_alike": ("normals_alike", "error", "touching"),
+    "contact.mixed_orientation": ("mixed_orientation", "warning", "sound"),
+    "contact.duplicate_facets": ("duplicate_facets", "error", "sound"),
+    "contact.initial_penetration": ("initial_penetration", "note", "sound"),
+    "contact.out_of_reach": ("out_of_reach", "warning", "sound"),
+    "contact.blind_nodes": ("blind_nodes", "note", "sound"),
+    "contact.clearance": ("sound", "note", "initial_penetration"),
+    "contact.stiffness_ratio": ("stiffness_ratio", "warning", "sound"),
+    "contact.size_ratio": ("size_ratio", "warning", "sound"),
+    "contact.gap_large": ("gap_large", "warning", "sound"),
+    "contact.gap_small": ("gap_small", "warning", "sound"),
+    "contact.interface_step": ("interface_step", "warning", "sound"),
+    "contact.aspect_ratio": ("aspect_ratio", "warning", "sound"),
+    "contact.warp": ("warp", "warning", "sound"),
+    "contact.concave": ("concave", "note", "sound"),
+    "contact.bound_by_wall": ("bound_by_wall", "warning", "sound"),
+    "contact.bound_by_condition": ("bound_by_condition", "note", "sound"),
+}
+DURING = {
+    "contact.crossed": ("crossed", "deep_penetration"),
+    "contact.deep_penetration": ("deep_penetration", "sound"),
+    "contact.energy_made": ("crossed", "sound"),
+    "contact.turned_away": ("turned_away", "sound"),
+}
+failures = []
+
+
+def expect(condition, what):
+    if not condition:
+        failures.append(what)
+        print("not so:", what, file=sys.stderr)
+
+
+def main():
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    abut, folder = sys.argv[1:]
+
+    def deck(name):
+        return os.path.join(folder, name, name + "_0000.rad")
+
+    def check(path, *options):
+        result = subprocess.run([abut, "check", path, "--json", *options], capture_output=True, text=True)
+        document = json.loads(result.stdout)
+        return {c["code"]: c for c in document.get("contact", [])}, result.returncode, document
+
+    for code, (name, severity, twin) in BEFORE.items():
+        found, status, document = check(deck(name))
+        got = sorted(found) or [f["message"] for f in document["findings"]]
+        expect(code in found and found[code]["severity"] == severity, f"{name} gives the {severity} {code}: {got}")
+        expect(status == (1 if severity == "error" or name == "mixed_orientation" else 0), f"check {name} ends with {status}")
+        expect(code not in check(deck(twin))[0], f"{twin} does not give {code}")
+
+    with tempfile.TemporaryDirectory() as work:
+        for name in ("normals_away", "both_away", "mixed_orientation"):
+            stopped = subprocess.run([abut, "run", deck(name), "-o", os.path.join(work, "x"), "--quiet"], capture_output=True, text=True)
+            expect(stopped.returncode == 1 and "--allow-findings" in stopped.stderr and not os.path.exists(os.path.join(work, "x")),
+                   f"run stops on {name}")
+            allowed = subprocess.run([abut, "run", deck(name), "-o", os.path.join(work, "a" + name), "--quiet", "--allow-findings"],
+                                     capture_output=True, text=True)
+            expect(allowed.returncode == 0, f"run {name} --allow-findings ends with {allowed.returncode}: {allowed.stderr}")
+            fixed = os.path.join(work, name + "_0000.rad")
+            found, status, document = check(deck(name), "--orient", "auto", "--write-deck", fixed)
+            expect(status == 0 and any(f["code"] == "contact.oriented" for f in document["findings"]), f"--orient auto mends {name}")
+            found, status, document = check(fixed)
+            expect(status == 0 and "contact.normals_away" not in found and "contact.mixed_orientation" not in found,
+                   f"the deck that --write-deck wrote for {name} is sound: {status} {sorted(found)}")
+        for code, (name, twin) in DURING.items():
+            for which in (name, twin):
+                output = os.path.join(work, "r" + which)
+                subprocess.run([abut, "run", deck(which), "-o", output, "--quiet"], capture_output=True, text=True)
+                with open(os.path.join(output, "run.json")) as file:
+                    codes = [f["code"] for f in json.load(file)["run_findings"]]
+                expect((code in codes) == (which == name), f"run {which}: {codes}")
+    print(f"{len(BEFORE) + len(DURING)} findings, {len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,177 @@
+// The facing rule and automatic orientation: T5, T31.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "inspect_scenes.hpp"
+
+namespace abut::contact {
+namespace {
+
+using test::Pair;
+
+void expect_all(const Facing& f, int answer) {
+  std::size_t decided = 0;
+  for (const std::int8_t a : f.facet) {
+    if (a == 0) continue;
+    EXPECT_EQ(a, answer);
+    ++decided;
+  }
+  EXPECT_GT(decided, 0u);
+}
+
+/// T5: four ways to orient two plates; each side is judged on its own, so both can be wrong.
+TEST(Facing, T5_plates_right_one_wrong_both_wrong) {
+  for (const bool first_right : {true, false}) {
+    for (const bool second_right : {true, false}) {
+      Pair p;
+      p.facets[0] = p.plate(6, 6, 0.0, 1.0, 0.0, first_right);
+      p.facets[1] = p.plate(5, 5, 0.1, 0.9, 0.01, !second_right);
+      const auto [a, b] = facing(p.input());
+      expect_all(a, first_right ? 1 : -1);
+      expect_all(b, second_right ? 1 : -1);
+      EXPECT_EQ(test::has(inspect(p.input()), "contact.normals_away", 0), !first_right);
+      EXPECT_EQ(test::has(inspect(p.input()), "contact.normals_away", 1), !second_right);
+
+      const Orientation o = orient(p.input());
+      EXPECT_EQ(o.flip[0].size(), first_right ? 0u : 36u);
+      EXPECT_EQ(o.flip[1].size(), second_right ? 0u : 25u);
+      EXPECT_FALSE(o.ambiguous[0] || o.ambiguous[1]);
+      p.apply(o);
+      EXPECT_FALSE(test::has_errors(inspect(p.input())));
+    }
+  }
+}
+
+/// T31: a single reversed segment is found by its number, and only it is turned.
+TEST(Facing, T31_one_reversed_segment_in_a_plate) {
+  Pair p;
+  p.facets[0] = p.plate(6, 6, 0.0, 1.0, 0.0, true);
+  p.facets[1] = p.plate(5, 5, 0.0, 1.0, 0.01, false);
+  p.facets[0][14] = reversed(p.facets[0][14]);
+  const auto found = inspect(p.input());
+  const Finding* away = test::find(found, "contact.normals_away", 0);
+  ASSERT_NE(away, nullptr);
+  EXPECT_EQ(away->facets, std::vector<Index>{14});
+  EXPECT_NEAR(away->measure, 35.0 / 36.0, 1e-12);
+  const Finding* mixed = test::find(found, "contact.mixed_orientation", 0);
+  ASSERT_NE(mixed, nullptr);
+  EXPECT_EQ(mixed->facets, std::vector<Index>{14});
+  EXPECT_DOUBLE_EQ(mixed->measure, 4.0);
+  EXPECT_EQ(orient(p.input()).flip[0], std::vector<Index>{14});
+}
+
+/// A thin closed box on a plate: only its bottom sees the plate; top and walls are hidden or look along it.
+TEST(Facing, T5_closed_box_on_a_plate) {
+  for (const bool inside_out : {false, true}) {
+    Pair p;
+    p.facets[0] = p.plate(8, 8, -1.0, 2.0, 0.0, true);
+    p.facets[1] = p.box({0.0, 0.0, 0.02}, {1.0, 1.0, 0.15}, 4, inside_out);
+    const auto [a, b] = facing(p.input());
+    expect_all(a, 1);
+    expect_all(b, inside_out ? -1 : 1);
+    const Orientation o = orient(p.input());
+    EXPECT_EQ(o.flip[1].size(), inside_out ? p.facets[1].size() : 0u);
+  }
+}
+
+/// A box that has sunk into a plate by less than half a segment: its normals are right, the overlap is what is found.
+TEST(Facing, a_closed_body_tells_overlap_from_reversal) {
+  Pair p;
+  p.facets[0] = p.plate(8, 8, -1.0, 2.0, 0.0, true);
+  p.facets[1] = p.box({0.03, 0.03, -0.02}, {1.0, 1.0, 0.5}, 4, false);
+  const auto found = inspect(p.input());
+  EXPECT_FALSE(test::has(found, "contact.normals_away", 1));
+  EXPECT_TRUE(test::has(found, "contact.overlap", 1));
+}
+
+/// Concentric cylinders: a shaft in a ring, either of them turned inside out; meshes that do not match.
+TEST(Facing, T5_cylinders) {
+  for (const bool shaft_wrong : {false, true}) {
+    for (const bool ring_wrong : {false, true}) {
+      Pair p;
+      p.facets[0] = p.cylinder(1.0, 24, 5, shaft_wrong);
+      p.facets[1] = p.cylinder(1.03, 31, 4, !ring_wrong);
+      const auto [a, b] = facing(p.input());
+      expect_all(a, shaft_wrong ? -1 : 1);
+      expect_all(b, ring_wrong ? -1 : 1);
+    }
+  }
+}
+
+/// Two crossed cylinders: the answer does not depend on where the pair lies in space, or on the order of the facets.
+TEST(Facing, does_not_depend_on_place_or_listing) {
+  Pair p;
+  p.facets[0] = p.cylinder(1.0, 20, 6, false);
+  p.facets[1] = p.plate(7, 7, -1.0, 1.0, 1.02, false);
+  const auto before = facing(p.input());
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (Vec3& x : p.x) x = Vec3{c * x.x - s * x.z + 3.0, x.y - 2.0, s * x.x + c * x.z};
+  std::reverse(p.facets[0].begin(), p.facets[0].end());
+  const auto after = facing(p.input());
+  EXPECT_NEAR(before[0].area_facing, after[0].area_facing, 1e-12);
+  EXPECT_NEAR(before[1].area_facing, after[1].area_facing, 1e-12);
+  EXPECT_EQ(after[0].area_away + after[1].area_away, 0.0);
+}
+
+/// Nothing near decides nothing: a wall beside a plate, edge on.
+TEST(Facing, edge_on_is_undecided) {
+  Pair p;
+  p.facets[0] = p.plate(4, 4, 0.0, 1.0, 0.0, true);
+  p.facets[1] = p.wall(4, 4, 0.5, 0.02);
+  const auto [a, b] = facing(p.input());
+  EXPECT_TRUE(std::isnan(b.fraction()));
+  EXPECT_DOUBLE_EQ(a.fraction(), 1.0);
+}
+
+/// Plates that touch have no line of sight: unlike normals pass, alike ones are an error, and nothing is guessed.
+TEST(Facing, T31_plates_that_touch) {
+  for (const bool good : {true, false}) {
+    Pair p;
+    p.facets[0] = p.plate(4, 4, 0.0, 1.0, 0.0, true);
+    p.facets[1] = p.plate(4, 4, 0.0, 1.0, 0.0, !good);
+    EXPECT_EQ(test::has(inspect(p.input()), "contact.normals_alike", 0), !good);
+    EXPECT_EQ(orient(p.input()).ambiguous[0], !good);
+    EXPECT_TRUE(orient(p.input()).flip[0].empty());
+  }
+}
+
+/// Held nodes (TYPE5) are looked at like a surface.
+TEST(Facing, T5_nodes_against_a_surface) {
+  for (const bool right : {true, false}) {
+    Pair p;
+    (void)p.plate(5, 5, 0.1, 0.9, 0.01, true);
+    for (Index n = 0; n < static_cast<Index>(p.x.size()); ++n) p.held.push_back(n);
+    p.facets[1] = p.plate(6, 6, 0.0, 1.0, 0.0, right);
+    EXPECT_EQ(test::has(inspect(p.input()), "contact.normals_away", 1), !right);
+  }
+}
+
+/// Random orientation of every facet of two curved surfaces comes back to what it was.
+TEST(Facing, orient_undoes_any_mixture) {
+  Pair p;
+  p.facets[0] = p.cylinder(1.0, 24, 5, false);
+  p.facets[1] = p.cylinder(1.03, 31, 4, true);
+  const auto good = p.facets;
+  std::uint32_t state = 12345;
+  for (auto& side : p.facets) {
+    for (Facet& f : side) {
+      state = state * 1664525u + 1013904223u;
+      if (state >> 31) f = reversed(f);
+    }
+  }
+  p.apply(orient(p.input()));
+  Pair q = p;
+  q.facets = good;
+  const auto a = facing(p.input()), b = facing(q.input());
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(a[k].facet, b[k].facet);
+    EXPECT_DOUBLE_EQ(a[k].fraction(), 1.0);
+  }
+  EXPECT_FALSE(test::has_errors(inspect(p.input())));
+}
+
+}  // namespace
+}  // namespace abut::contact

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Writes the decks of examples/decks/findings: one per finding of the contact inspection, and `sound`, which has none.
+
+usage: make_finding_decks.py DIR          write DIR/NAME/NAME_0000.rad and NAME_0001.rad
+       make_finding_decks.py --check DIR  compare instead of writing; exit status 1 if a file differs
+
+Every deck is two square steel plates over each other (kg, m, s); tests/decks/check_findings.py says which finding each provokes
+and which other deck is its twin. Standard library only.
+"""
+import sys
+from pathlib import Path
+
+from make_examples import STEEL, Deck, Mesh, flat, integers, quads, reals
+
+SIDE, DISTANCE, GAP = 0.1, 1e-3, 9e-4
+
+
+def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=True, upper_down=True, flipped=(), repeated=(), shift=0.0,
+           stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0):
+    """Plate 1 below looks up, plate 2 above looks down, unless told otherwise."""
+    mesh = Mesh()
+    low, low_nodes = mesh.plate(lambda u, w: (stretch * SIDE * u, SIDE * w, valley * abs(u - 0.5)), lower, lower)
+    high, high_nodes = mesh.plate(lambda u, w: (shift + stretch * SIDE * u, SIDE * w, distance + (warp if u == w == 0.25 else 0.0)), upper, upper)
+    deck = Deck(name, name.replace("_", " "), [story])
+    deck.elastic(1, "steel", STEEL["density"], lower_young, STEEL["poisson"])
+    deck.elastic(2, **STEEL)
+    deck.shell_property(1, "lower", thickness[0], 3)
+    deck.shell_property(2, "upper", thickness[1], 3)
+    deck.nodes(mesh)
+    deck.part(1, "lower", "SHELL", 1, 1, low)
+    deck.part(2, "upper", "SHELL", 2, 2, high)
+    faces = quads(low_nodes, facing_down=not lower_up)
+    for k in flipped:
+        faces[k] = faces[k][::-1]
+    faces += [faces[k] for k in repeated]
+    deck.surface_of_faces(1, "lower", faces)
+    deck.surface_of_faces(2, "upper", quads(high_nodes, facing_down=upper_down))
+    deck.contact(1, "plate on plate", 1, 2, friction=0, gap=gap)
+    if stfac:
+        card = deck.lines.index("#              Stfac                Fric                 Gap              Tstart               Tstop") + 1
+        deck.lines[card] = reals(stfac) + deck.lines[card][20:]
+    deck.node_group(1, "lower", flat(low_nodes))
+    deck.node_group(2, "upper", flat(high_nodes))
+    if speed:
+        deck.velocity(1, "fall", (0.0, 0.0, -speed), 2)
+    if spin:
+        turning = [node for row in high_nodes for node in row]
+        for k, node in enumerate(turning, 2):
+            deck.node_group(10 + k, "one node", [node])
+            deck.velocity(k, "turn", (0.0, 0.0, spin * (mesh.nodes[node - 1][0] - SIDE / 2)), 10 + k)
+    if extra:
+        extra(deck)
+    deck.history(1, "INTER", [1])
+    return deck.write(end=end, rows=10, frames=1)
+
+
+def wall(deck):
+    deck.node_group(3, "upper, walled", [26, 27, 28])
+    deck.add("/RWALL/PLANE/1", "wall above", integers(0, 0, 3, 0), reals(0.0, 0.0, 0.0), reals(0, 0, DISTANCE), reals(0, 0, DISTANCE - 1.0))
+
+
+def clamp(deck):
+    deck.clamp(1, "lower held", 1, rotations=True)
+
+
+def body(deck):
+    deck.add("/RBODY/1", "upper plate is rigid", integers(51, 0, 0, 0) + reals(0) + integers(2, 0, 0, 0), reals(0, 0, 0), reals(0, 0, 0), integers(0))
+    position = deck.lines.index("/NODE")
+    deck.lines.insert(position + 51, f"{51:>10}{reals(SIDE / 2, SIDE / 2, DISTANCE)}")
+
+
+DECKS = {
+    "sound": dict(story="Two plates that face each other: nothing to complain about."),
+    "normals_away": dict(story="The upper plate looks up.", upper_down=False),
+    "both_away": dict(story="Both plates look away from each other.", lower_up=False, upper_down=False),
+    "normals_alike": dict(story="Plates that touch; both look up.", distance=0.0, gap=0.0, upper_down=False),
+    "touching": dict(story="Plates that touch and look at each other.", distance=0.0, gap=0.0),
+    "mixed_orientation": dict(story="One segment of the lower plate looks down.", flipped=(5,)),
+    "duplicate_facets": dict(story="One segment of the lower plate is listed twice.", repeated=(5,)),
+    "initial_penetration": dict(story="The gap is larger than the distance of the plates.", gap=1.5e-3),
+    "out_of_reach": dict(story="The upper plate is beside the lower one.", shift=0.5),
+    "blind_nodes": dict(story="The upper plate covers half of the lower one.", shift=0.05),
+    "stiffness_ratio": dict(story="The lower plate is of rubber.", lower_young=STEEL["young"] / 50),
+    "size_ratio": dict(story="One segment of the lower plate meets 6 by 6 of the upper.", lower=2, upper=12),
+    "gap_large": dict(story="The gap is most of a segment.", distance=0.021, gap=0.02),
+    "gap_small": dict(story="The plates meet so fast that a step is half of the gap.", gap=1e-5, distance=2e-5, speed=20.0),
+    "interface_step": dict(story="A contact spring that is stiffer than what the plates' step allows.", stfac=500),
+    "aspect_ratio": dict(story="Segments eight times as long as wide.", stretch=8.0),
+    "warp": dict(story="One node of the upper plate is lifted by a third of a segment.", warp=0.01),
+    "concave": dict(story="The lower plate is a valley.", valley=0.05, distance=0.03),
+    "bound_by_wall": dict(story="Three nodes of the upper plate are on a rigid wall.", extra=wall),
+    "bound_by_condition": dict(story="The lower plate cannot move.", extra=clamp),
+    "deep_penetration": dict(story="The upper plate falls so fast that it sinks in by most of a segment.", gap=0.0, speed=3000.0),
+    "crossed": dict(story="The upper plate falls so fast that nodes would jump through the lower one in a step.", gap=0.0, speed=8000.0),
+    "turned_away": dict(story="The upper plate turns over; its surface then looks up.", distance=0.054, gap=0.03, spin=2e3, end=2.2e-3, stfac=1e-9),
+}
+
+
+def main():
+    arguments = sys.argv[1:]
+    check = arguments[:1] == ["--check"]
+    if len(arguments) != 1 + check:
+        print(__doc__)
+        return 2
+    folder, different = Path(arguments[-1]), 0
+    for name, options in DECKS.items():
+        for file, text in plates(name, **options).items():
+            path = folder / name / file
+            if not check:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            elif not path.is_file() or path.read_text(encoding="utf-8") != text:
+                different += 1
+                print(f"{path} is not what tools/make_finding_decks.py writes")
+    return 1 if different else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
