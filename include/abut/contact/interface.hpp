@@ -32,7 +32,7 @@ struct SurfaceState {
   std::span<const std::uint8_t> active;  ///< 0: eroded facet; empty: all active
   /// #S in the order of Surface::nodes(): 0 is let go, others stay held with the stiffness of all their facets, eroded ones
   /// too. Empty: nodes are held by what is left of their facets.
-  std::span<const std::uint8_t> node_active;
+  std::span<const std::uint8_t> node_active = {};
 };
 
 /// Host arrays at t^n. Lengths #N of the host.
