@@ -6,6 +6,7 @@
 
 #include "deck/deck.hpp"
 #include "init/contact_inspection.hpp"
+#include "init/contact_setup.hpp"
 #include "model/build.hpp"
 #include "oriented_deck.hpp"
 
@@ -17,6 +18,7 @@ DeckInput read_deck(const std::filesystem::path& deck) {
   input.files = pair.starter.files;
   input.files.insert(input.files.end(), pair.engine.files.begin(), pair.engine.files.end());
   input.model = model::build(pair, input.findings);
+  if (!input.findings.has_errors()) init::settle_initial_penetrations(input.model, input.findings);
   return input;
 }
 

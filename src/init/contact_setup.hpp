@@ -1,6 +1,7 @@
 // Model interfaces -> contact::Interface objects, and what keeps them in step with eroding elements.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "abut/contact/interface.hpp"
+#include "core/diagnostic.hpp"
 #include "core/profile.hpp"
 #include "elements/group.hpp"
 #include "model/model.hpp"
@@ -27,17 +29,26 @@ struct RunInterface {
   struct Side {
     std::vector<double> stiffness;
     std::vector<std::uint8_t> active;
+    std::vector<Index> nodes;  ///< surface nodes (contact::Surface::nodes()) or held nodes
+    std::vector<std::uint8_t> node_active;
     std::vector<std::vector<model::ElementRef>> elements;
+    std::vector<std::array<Index, 4>> corners;
   };
   std::vector<Side> sides;  ///< two for TYPE3, {unused, main} otherwise
 };
 
 /// @param law  overrides the profile's normal law for every interface when set (--interface-law)
-/// @param state  initial state after rigid bodies moved their main nodes; `Inacti` of TYPE5 and TYPE7 may move nodes
+/// @param state  initial state after rigid bodies moved their main nodes
+/// @throws std::logic_error when settle_initial_penetrations() was left out for a model that asks for it
 [[nodiscard]] std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, std::optional<contact::Law> law,
                                                         state::State& state);
 
-/// Switches off facets whose elements were deleted: Idel 1 when all of them are, Idel 2 when one is (numerics.md 7.4.7).
+/// Moves nodes out of initial penetrations where an interface asks for it (Inacti 3: its nodes, 4: the nodes of the segments;
+/// numerics.md 7.2.5, 7.7.1) and says so: one note per interface. For a model as read, before anything is computed from its nodes.
+void settle_initial_penetrations(model::Model& model, Diagnostics& findings);
+
+/// Switches off facets whose elements were deleted: Idel 1 when all of them are, Idel 2 when one is or a node of the facet is left
+/// without elements; nodes without elements are let go unless Idel is negative (numerics.md 7.4.7).
 /// @param alive  tells whether an element is still active
 void update_erosion(const model::Model& model, std::span<RunInterface> interfaces,
                     const std::function<bool(const model::ElementRef&)>& alive);

@@ -86,6 +86,15 @@ void read_coefficients(BlockReader& r, Interface& i) {
   if (i.ifric <= 1) return;
   r.next_card();
   i.c[5] = r.real({1, 20}, names[5], coefficient_dimension(i.ifric, 5));
+  if (i.ifric != 3) return;
+  if (!(i.c[4] > 0.0 && i.c[5] > i.c[4])) {
+    r.error("model.out_of_range", {1, 20}, names[5],
+            "Ifric 3 (Renard) needs speeds 0 < C5 < C6: C5 where friction is largest, C6 where it is smallest");
+  }
+  if (i.c[3] > i.c[1] || i.c[0] < 0.0 || i.c[3] < 0.0) {
+    r.error("model.out_of_range", {1, 20}, names[5],
+            "Ifric 3 (Renard) needs C1 >= 0 and 0 <= C4 <= C2: C4 is the smallest coefficient, C2 the one at high speed");
+  }
 }
 
 void read_filter(BlockReader& r, Interface& i) {
@@ -93,6 +102,14 @@ void read_filter(BlockReader& r, Interface& i) {
   i.xfreq = r.real({21, 40}, "Xfreq", i.ifiltr == 3 ? dim::rate : dim::none);
   if (i.xfreq < 0.0) r.error("model.out_of_range", {21, 40}, "Xfreq", "a filter coefficient cannot be negative; write 0 or more");
   if (i.xfreq == 0.0) i.ifiltr = 0;
+  constexpr double two_pi = 6.283185307179586476925;
+  if (i.ifiltr == 1 && i.xfreq > 1.0) {
+    r.error("model.out_of_range", {21, 40}, "Xfreq", "with Ifiltr 1 this is the share of the new force; write a value between 0 and 1");
+  }
+  if (i.ifiltr == 2 && i.xfreq < two_pi) {
+    r.error("model.out_of_range", {21, 40}, "Xfreq",
+            "with Ifiltr 2 this is a period in cycles and must be at least 6.2832 (2 pi): the filter would amplify");
+  }
 }
 
 Interface start(BlockReader& r) {
@@ -156,6 +173,12 @@ Interface read_type5(Context& c, const deck::Block& block) {
   read_ibc(r, i);
   t.irm = integer_in(r, {21, 30}, "Irm", 0, 2, "0 (turn segments out of their solid), 1 (reverse all) or 2 (leave all)");
   if (!old) t.inacti = integer_in(r, {31, 40}, "Inacti", 0, 4, "0, 1, 3 (move nodes) or 4 (move segments)");
+  if (t.inacti == 2) {
+    r.error("model.out_of_range", {31, 40}, "Inacti", "TYPE5 has no Inacti 2; write 0 (full forces), 3 (move nodes) or 4 (move segments)");
+  } else if (t.inacti == 1) {
+    r.warning("model.no_effect", {31, 40}, "Inacti",
+              "Inacti 1 does nothing in TYPE5: nodes that penetrate at the start are pushed with their full force; 3 or 4 moves them out");
+  }
   if (!old || version == 44) {
     r.next_card();
     i.ifric = integer_in(r, {1, 10}, "Ifric", 0, 3, "a friction law; write 0 (Coulomb), 1, 2 or 3");
@@ -219,6 +242,7 @@ void read_type7_head(BlockReader& r, Interface& i, InterfaceType7& t) {
   if (largest > 0.0) t.gap_max = largest;
   t.pen_max = non_negative(r, {41, 60}, "Fpenmax", dim::none, "a penetration limit");
   refuse_option(r, {81, 90}, "Itied", 0, "a tied contact");
+  if (c.model->version >= 2026) refuse_option(r, {91, 100}, "Ists", 0, "this stiffness option");
   r.next_card();
   t.st_min = non_negative(r, {1, 20}, "Stmin", dim::stiffness, "a stiffness");
   const double stiffest = non_negative(r, {21, 40}, "Stmax", dim::stiffness, "a stiffness");

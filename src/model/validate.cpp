@@ -125,8 +125,20 @@ class Validator {
       } else if (const auto* t7 = std::get_if<InterfaceType7>(&i.type)) {
         if (sets_are_sound) check_surface(i, t7->surface, t7->istf == 1);
         check_nodes(i, t7->nodes, no_index, masses_are_known);
+        contact_step_action(i);
       }
     }
+  }
+
+  /// /DT/INTER/STOP and CST ask for what only a contact step of TYPE7 can trigger.
+  void contact_step_action(const Interface& i) {
+    using Action = StepControl::Action;
+    const Controls& k = m_.controls;
+    if (k.contact_minimum <= 0.0 || (k.contact_action != Action::stop && k.contact_action != Action::constant)) return;
+    d_.error("model.unsupported", i.place,
+             fmt::format("/DT/INTER/{} acts on this interface and is not supported; use /DT/INTER/DEL (nodes below the step leave the "
+                         "interface), a larger Gapmin, or /DT/INTER without an action",
+                         k.contact_action == Action::stop ? "STOP" : "CST"));
   }
 
   bool has_stiffness(const Segment& s) const {

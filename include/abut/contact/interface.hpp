@@ -30,6 +30,9 @@ struct SurfaceState {
   std::span<const double> stiffness;     ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
   std::span<const double> thickness;     ///< shell thickness per facet; empty: none
   std::span<const std::uint8_t> active;  ///< 0: eroded facet; empty: all active
+  /// #S in the order of Surface::nodes(): 0 is let go, others stay held with the stiffness of all their facets, eroded ones
+  /// too. Empty: nodes are held by what is left of their facets.
+  std::span<const std::uint8_t> node_active = {};
 };
 
 /// Host arrays at t^n. Lengths #N of the host.
@@ -61,11 +64,18 @@ class Interface {
   Interface(Interface&&) noexcept;
   Interface& operator=(Interface&&) noexcept;
 
-  /// @param side 0 first, 1 second. Of nodes_to_surface 1 is the surface and 0 the held nodes: stiffness and active are
-  ///        then #nodes (an inactive node is let go), thickness is not used.
+  /// @param side 0 first, 1 second. Of nodes_to_surface and both_sides 1 is the surface and 0 the held nodes: stiffness and active
+  ///        are then #nodes (an inactive node is let go), thickness is not used.
   /// Spans that are empty leave what was set before. May be called at any time.
   /// @throws std::invalid_argument on a wrong length, a negative or non-finite stiffness
   void set_surface(int side, const SurfaceState& state);
+
+  /// Moves that take initial penetrations away, for the host to apply before its masses and reference geometry are made
+  /// (numerics.md 7.2.5, 7.7.1: Inacti 3 and 4). Held nodes are moved, or with `move_surface` the nodes of the facets instead. One-sided
+  /// interfaces treat their nodes one after the other, twice, each on what its predecessors left; a node moved several times
+  /// appears once with the sum. Two-sided ones take the largest move of a node.
+  /// @param x  #N by 3, positions; stiffness, activity and time window do not matter
+  [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const;
 
   /// Once per step, before evaluate, with the same positions.
   void search(const HostState& host);

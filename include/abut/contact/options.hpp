@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/friction_law.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 
@@ -17,6 +18,14 @@ enum class Law { stiffening, constant };
 /// What acts between a node and the borders of facets: closest point on faces, edges and corners, or the plain rule
 /// (one normal per facet, hard tolerance beyond its edges).
 enum class Edges { closest, plain };
+
+/// What happens with nodes that lie within the gap or behind the surface when the interface first acts.
+enum class Initial {
+  keep,     ///< they are pushed with the full force of their penetration
+  offset,   ///< the gap of each begins at what is there (no force) and grows back to the full gap as the node moves away
+  project,  ///< the host moves them out before the first step, with Interface::projections(); then as keep
+  ignore,   ///< they do not touch until they have been outside of the gap
+};
 
 /// Rules on which abut's standard and reference profiles differ (numerics.md 7.9).
 struct Rules {
@@ -46,13 +55,27 @@ struct Rules {
 struct Options {
   double stiffness_scale = 0.2;   ///< s (T14); must be > 0
   double friction = 0.0;          ///< Coulomb coefficient (T19); >= 0
+  FrictionLaw friction_law;       ///< how it depends on pressure and speed
+  FrictionFilter filter;          ///< of the trial friction force
   double tangential_ratio = 0.1;  ///< K_t / K_n (T21)
   double gap = 0.0;               ///< length (T25..T28); >= 0
   double birth = 0.0;             ///< time from which the interface acts
   double death = 1e30;            ///< time after which it does not
   double shear_limit = 1e30;      ///< Ptlim: largest friction stress; > 0
+  /// Normal viscosity as a fraction of critical of the pair; 0 (as in the theory) to 1. It never pulls.
+  double damping = 0.0;
+  Initial initial = Initial::keep;
   double depth_limit = 0.0;       ///< how far behind a facet a node is still held when first met; 0: from facet size
   Rules rules;
+
+  /// Some coefficient is not zero.
+  [[nodiscard]] bool rubs() const { return friction > 0.0 || friction_law.model != FrictionLaw::Model::coulomb; }
+};
+
+/// A node that is moved so that it no longer penetrates at the start.
+struct Projection {
+  Index node = no_index;
+  Vec3 by;
 };
 
 /// What an interface says after evaluate(). Energies are cumulative since the start, in the host's unit of work.

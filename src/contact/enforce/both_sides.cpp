@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/enforce/coefficient.hpp"
 #include "contact/enforce/history.hpp"
 
 namespace abut::contact {
@@ -16,20 +17,44 @@ constexpr double exhausted = 1e-10;
 /// Placement of initial penetrations, a hair beyond what is there (numerics.md 7.7.1).
 constexpr double hair = 1.0 + 1e-8;
 
+/// Largest distance between a bilinear facet and its four triangles: a quarter of the height of its hourglass.
+double warp(const Side& surface) {
+  double largest = 0.0;
+  for (Index f = 0; f < surface.facet_count(); ++f) {
+    const Patch p = surface.patch(f);
+    if (!p.triangle) largest = std::max(largest, squared_norm((p.x[0] - p.x[1]) + (p.x[2] - p.x[3])));
+  }
+  return std::sqrt(largest) / 16.0;
+}
+
 BothSidesOptions checked(BothSidesOptions o) {
   if (!(o.gap > 0.0)) throw std::invalid_argument("a two-sided interface needs a gap > 0");
   if (!(o.friction >= 0.0)) throw std::invalid_argument("friction must be >= 0");
+  if (!(o.damping >= 0.0) || !(o.friction_viscosity >= 0.0)) throw std::invalid_argument("damping shares must be >= 0");
+  if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) throw std::invalid_argument("filter share must be > 0 and at most 1");
+  if (o.node_gap.empty() != o.facet_gap.empty()) throw std::invalid_argument("node_gap and facet_gap: both or none");
+  if (o.node_size.empty() != o.facet_size.empty()) throw std::invalid_argument("node_size and facet_size: both or none");
   return o;
 }
 
 }  // namespace
 
 BothSides::BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions options)
-    : options_(checked(std::move(options))), held_(nodes, std::vector<double>(nodes.size(), 1.0)), surface_(std::move(surface), true) {
+    : options_(checked(std::move(options))), held_(nodes, std::vector<double>(nodes.size(), 0.0)), surface_(std::move(surface), true) {
   if (!options_.node_gap.empty() && options_.node_gap.size() != nodes.size())
     throw std::invalid_argument("node_gap: one value per held node");
   if (!options_.facet_gap.empty() && static_cast<Index>(options_.facet_gap.size()) != surface_.facet_count()) {
     throw std::invalid_argument("facet_gap: one value per facet");
+  }
+  if (!options_.node_size.empty() &&
+      (options_.node_size.size() != nodes.size() || static_cast<Index>(options_.facet_size.size()) != surface_.facet_count())) {
+    throw std::invalid_argument("node_size, facet_size: one value per node, one per facet");
+  }
+  narrowest_ = options_.gap;
+  if (variable_gap() && !nodes.empty() && surface_.facet_count() > 0) {
+    widest_ = *std::max_element(options_.facet_gap.begin(), options_.facet_gap.end());
+    narrowest_ = std::max(options_.gap, *std::min_element(options_.node_gap.begin(), options_.node_gap.end()) +
+                                            *std::min_element(options_.facet_gap.begin(), options_.facet_gap.end()));
   }
   own_.assign(held_.nodes().begin(), held_.nodes().end());
   own_.insert(own_.end(), surface_.nodes().begin(), surface_.nodes().end());
@@ -40,31 +65,130 @@ BothSides::BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions
   for (const Index n : surface_.nodes()) surface_own_.push_back(position(n));
   for (std::vector<Vec3>* array : {&normal_, &tangential_, &old_force_, &old_x_}) array->resize(own_.size());
   gone_.assign(held_.nodes().size(), 0);
+  off_.assign(at(surface_.facet_count()), 0);
 }
 
 void BothSides::set_surface(int side, const SurfaceState& state) {
-  if (side != 1) throw std::invalid_argument("a two-sided interface has the surface on side 1 only");
-  surface_.set(state, false);
+  if (side < 0 || side > 1) throw std::invalid_argument("contact: side " + std::to_string(side) + " is neither 0 nor 1");
+  (side == 1 ? surface_ : held_).set(state, false);
+  stale_ = true;
 }
 
 double BothSides::pair_gap(Index node, Index facet) const {
-  if (options_.node_gap.empty() || options_.facet_gap.empty()) return options_.gap;
-  return std::max(options_.gap, std::min(options_.node_gap[at(node)] + options_.facet_gap[at(surface_.listed(facet))], options_.gap_max));
+  if (!variable_gap()) return options_.gap;
+  const std::size_t f = at(surface_.listed(facet));
+  double gap = std::min(options_.node_gap[at(node)] + options_.facet_gap[f], options_.gap_max);
+  if (!options_.node_size.empty()) gap = std::min(gap, options_.node_size[at(node)] + options_.facet_size[f]);
+  return std::max(options_.gap, gap);
 }
 
 double BothSides::reach(Index node) const {
-  if (gone_[at(node)] != 0) return -1.0;
-  if (options_.node_gap.empty() || options_.facet_gap.empty()) return options_.gap;
-  const double widest = *std::max_element(options_.facet_gap.begin(), options_.facet_gap.end());
-  return std::max(options_.gap, std::min(options_.node_gap[at(node)] + widest, options_.gap_max));
+  if (gone_[at(node)] != 0 || !held_.node_active(node)) return -1.0;
+  if (!variable_gap()) return options_.gap;
+  return std::max(options_.gap, std::min(options_.node_gap[at(node)] + widest_, options_.gap_max));
+}
+
+double BothSides::pair_stiffness(Index node, Index facet) const {
+  if (off_[at(facet)] != 0) return 0.0;
+  const double main = surface_.facet_stiffness(facet);
+  if (options_.stiffness == BothSidesOptions::Stiffness::facet) return main;
+  const double own = held_.node_stiffness(node);
+  double k = 0.0;
+  switch (options_.stiffness) {
+    case BothSidesOptions::Stiffness::mean:
+      k = 0.5 * (main + own);
+      break;
+    case BothSidesOptions::Stiffness::larger:
+      k = std::max(main, own);
+      break;
+    case BothSidesOptions::Stiffness::smaller:
+      k = std::min(main, own);
+      break;
+    default:
+      k = main + own > 0.0 ? main * own / (main + own) : 0.0;
+  }
+  return std::clamp(k, options_.stiffness_min, options_.stiffness_max);
+}
+
+BothSides::Met BothSides::meet(const Side& held, const Side& surface, Index node, Index facet, double gap) {
+  const auto& corner = surface.surface().local()[at(facet)];
+  std::array<Vec3, 4> x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = surface.x()[at(corner[k])];
+  return {both_sides_contact(held.x()[at(node)], x, surface.surface().facets()[at(facet)].is_triangle(), gap), gap};
+}
+
+std::span<const Index> BothSides::facets_of(const Candidates& candidates, Index node, std::vector<Index>& scratch) const {
+  scratch.clear();
+  const Index self = held_.nodes()[at(node)];
+  for (const Candidates::Entry& entry : candidates.of(node)) {
+    const auto& corners = surface_.surface().facets()[at(entry.facet)].node;
+    if (surface_.active(entry.facet) && std::find(corners.begin(), corners.end(), self) == corners.end()) scratch.push_back(entry.facet);
+  }
+  std::sort(scratch.begin(), scratch.end());
+  return scratch;
+}
+
+void BothSides::settle(bool awake) {
+  using Initial = BothSidesOptions::Initial;
+  std::vector<Index> scratch;
+  for (Index node = 0; node < held_.node_count(); ++node) {
+    if (gone_[at(node)] != 0 || !held_.node_active(node)) continue;
+    for (const Index facet : facets_of(candidates_, node, scratch)) {
+      const Met met = meet(held_, surface_, node, facet, pair_gap(node, facet));
+      if (met.contact.penetration <= 0.0) continue;
+      if (!awake) pairs_.push_back({node, facet, offset_of({}, met.gap, met.contact.penetration), {}});
+      if (options_.initial == Initial::drop_nodes) gone_[at(node)] = 1;
+      if (options_.initial == Initial::drop_facets) off_[at(facet)] = 1;
+      if (options_.largest_penetration > 0.0 && met.contact.penetration > options_.largest_penetration * met.gap) gone_[at(node)] = 1;
+    }
+  }
+}
+
+std::vector<Projection> BothSides::projections(std::span<const Vec3> x, bool move_surface) const {
+  Side held = held_, surface = surface_;
+  held.gather(x);
+  surface.gather(x);
+  Candidates candidates;
+  candidates.update(
+      held, surface, [this](Index node) { return reach(node); }, warp(surface), true);
+  std::vector<Vec3> move(x.size());
+  std::vector<Index> scratch;
+  for (Index node = 0; node < held.node_count(); ++node) {
+    for (const Index facet : facets_of(candidates, node, scratch)) {
+      const Met met = meet(held, surface, node, facet, pair_gap(node, facet));
+      if (met.contact.penetration <= 0.0) continue;
+      const Vec3 by = (hair * met.contact.penetration) * met.contact.normal;
+      const auto largest = [&move](Index n, const Vec3& candidate) {
+        if (squared_norm(candidate) > squared_norm(move[at(n)])) move[at(n)] = candidate;
+      };
+      if (!move_surface) {
+        largest(held.nodes()[at(node)], by);
+      } else {
+        for (const Index n : surface.surface().facets()[at(facet)].node) largest(n, -by);
+      }
+    }
+  }
+  std::vector<Projection> out;
+  for (std::size_t i = 0; i < move.size(); ++i) {
+    if (squared_norm(move[i]) > 0.0) out.push_back({static_cast<Index>(i), move[i]});
+  }
+  return out;
 }
 
 void BothSides::search(const HostState& host) {
   held_.gather(host.x);
   surface_.gather(host.x);
-  if (!acts(host)) return;
-  candidates_.update(
-      held_, surface_, [this](Index node) { return reach(node); }, 0.5 * options_.gap, !started_);
+  if (started_ && !acts(host)) return;
+  // Lists are made with distances to the bilinear facet, pairs are measured to its four triangles: warp apart at most.
+  double between = -1.0;
+  const auto reach_of = [&](Index node) {
+    if (between < 0.0) between = warp(surface_);
+    const double distance = reach(node);
+    return distance < 0.0 ? distance : distance + between;
+  };
+  candidates_.update(held_, surface_, reach_of, 0.5 * options_.gap, stale_);
+  stale_ = false;
+  if (!started_) settle(acts(host));
 }
 
 double BothSides::offset_of(const Pair& old, double gap, double p) const {
@@ -74,126 +198,156 @@ double BothSides::offset_of(const Pair& old, double gap, double p) const {
   return std::min(old.offset, 0.95 * old.offset + 0.05 * (p + margin));
 }
 
-void BothSides::add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
+Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, const Vec3& normal, const Vec3& v, double vn,
+                            double pressing, double critical, Sums& sums) const {
+  const Vec3 vt = v - vn * normal;
+  const double speed = norm(vt);
+  const double pressure = std::abs(pressing) / surface_.facet_area(pair.facet);
+  const double limit = friction_coefficient(options_.friction_law, options_.friction, pressure, speed) * std::abs(pressing);
+  const double a = options_.filter.weight(host.dt_bar_old);
+  if (options_.friction_form == BothSidesOptions::Friction::viscous) {
+    Vec3 force{};
+    if (speed > 0.0) force = (std::min(limit, options_.friction_viscosity * critical * speed) / speed) * vt;
+    if (options_.filter.acts()) force = a * force + (1.0 - a) * old.friction;
+    sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction));
+    return force;
+  }
+  pair.spring = a * pair_stiffness(pair.node, pair.facet);
+  Vec3 force = old.friction + (pair.spring * host.dt_bar_old) * v;
+  force -= dot(force, normal) * normal;
+  const double size = norm(force);
+  const bool slips = size > limit;
+  if (slips) force = (limit / size) * force;
+  if (pair.spring > 0.0) {
+    const double stored = 0.5 * squared_norm(force) / pair.spring;
+    const double stored_before = old.spring > 0.0 ? 0.5 * squared_norm(old.friction) / old.spring : 0.0;
+    sums.elastic += stored;
+    if (slips) sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction) - (stored - stored_before));
+  }
+  return force;
+}
+
+bool BothSides::add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                          Sums& sums) {
   const auto& corner = surface_.surface().local()[at(facet)];
   const bool triangle = surface_.surface().facets()[at(facet)].is_triangle();
   const std::size_t corners = triangle ? 3 : 4;
-  std::array<Vec3, 4> x;
-  for (std::size_t k = 0; k < 4; ++k) x[k] = surface_.x()[at(corner[k])];
-  double gap = pair_gap(node, facet);
-  const BothSidesContact c = both_sides_contact(held_.x()[at(node)], x, triangle, gap);
-  if (c.penetration <= 0.0) return;
-  if (gap - c.penetration < exhausted * gap ||
-      (!started_ && options_.largest_penetration > 0.0 && c.penetration > options_.largest_penetration * gap)) {
+  const Met met = meet(held_, surface_, node, facet, pair_gap(node, facet));
+  const BothSidesContact& c = met.contact;
+  const double k = pair_stiffness(node, facet);
+  if (c.penetration <= 0.0) return false;
+  if (met.gap - c.penetration < exhausted * met.gap) {
     gone_[at(node)] = 1;
-    return;
+    return false;
   }
-  Pair pair{node, facet, offset_of(old, gap, c.penetration), {}};
+  Pair pair{node, facet, offset_of(old, met.gap, c.penetration), {}};
   const double p = c.penetration - pair.offset;
-  gap -= pair.offset;
-  if (p <= 0.0) {
+  const double gap = met.gap - pair.offset;
+  if (p <= 0.0 || k <= 0.0) {
     pairs_.push_back(pair);
-    return;
+    return false;
   }
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
   const std::size_t self = host_of(held_own_[at(node)]);
   Vec3 v = host.v[self];
-  for (std::size_t k = 0; k < corners; ++k) v -= c.weight[k] * host.v[host_of(surface_own_[at(corner[k])])];
+  for (std::size_t i = 0; i < corners; ++i) v -= c.weight[i] * host.v[host_of(surface_own_[at(corner[i])])];
   const double vn = dot(v, c.normal);
-  const Vec3 vt = v - vn * c.normal;
-
-  const double k = surface_.facet_stiffness(facet);
-  const BothSidesForce law = both_sides_force(0.5 * k, gap, p, host.mass[self], vn, options_.damping);
-  const double pressing = law.elastic - law.damping * vn;
-  const double limit = options_.friction * std::abs(pressing);
-  if (options_.friction > 0.0) {
-    if (options_.friction_form == BothSidesOptions::Friction::viscous) {
-      const double speed = norm(vt);
-      if (speed > 0.0) pair.friction = (std::min(limit, options_.friction_viscosity * law.critical * speed) / speed) * vt;
-    } else {
-      Vec3 trial = old.friction + (k * host.dt_bar_old) * v;
-      trial -= dot(trial, c.normal) * c.normal;
-      const double size = norm(trial);
-      pair.friction = size > limit ? (limit / size) * trial : trial;
-    }
-  }
-  const Vec3 normal = pressing * c.normal;
-  const std::array<double, 4> share = triangle ? c.weight : without_hourglass(c.weight);
-  const Index own = held_own_[at(node)];
-  normal_[at(own)] += normal;
-  tangential_[at(own)] -= pair.friction;
-  const double inverse_h = host.dt > 0.0 ? 1.0 / host.dt : 0.0;
-  const double viscous = options_.friction > 0.0 ? options_.friction_viscosity * law.critical * inverse_h : 0.0;
-  const double tangent = std::max(law.tangent + law.damping * inverse_h, viscous);
-  stiffness[self] += tangent;
-  double smallest = 2.0 * host.mass[self] / tangent;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const Index to = surface_own_[at(corner[i])];
-    normal_[at(to)] -= share[i] * normal;
-    tangential_[at(to)] += share[i] * pair.friction;
-    stiffness[host_of(to)] += share[i] * tangent;
-    if (share[i] > 0.0) smallest = std::min(smallest, 2.0 * host.mass[host_of(to)] / (share[i] * tangent));
-  }
-  if (options_.step_minimum > 0.0 && options_.step_scale * std::sqrt(smallest) <= options_.step_minimum) gone_[at(node)] = 1;
   if (vn < 0.0) {
     const double step = 0.5 * (gap - p) / -vn;
-    if (options_.step_minimum > 0.0 && step <= options_.step_minimum) gone_[at(node)] = 1;
+    if (options_.step_minimum > 0.0 && step <= options_.step_minimum) {
+      gone_[at(node)] = 1;
+      return false;
+    }
     if (step < result.kinematic_step) {
       result.kinematic_step = step;
       result.kinematic_node = held_.nodes()[at(node)];
     }
   }
+
+  const double mass = mass_of(host, self);
+  const BothSidesForce law = both_sides_force(0.5 * k, gap, p, mass, vn, options_.damping);
+  pair.damping = -law.damping * vn;
+  const double pressing = law.elastic + pair.damping;
+  if (options_.rubs()) pair.friction = friction_of(host, old, pair, c.normal, v, vn, pressing, law.critical, sums);
+
+  const Vec3 normal = pressing * c.normal;
+  const std::array<double, 4> share = triangle ? c.weight : without_hourglass(c.weight);
+  const Index own = held_own_[at(node)];
+  normal_[at(own)] += normal;
+  tangential_[at(own)] -= pair.friction;
+  const double inverse_h = (options_.reference_step ? 1.0 : 2.0) * (host.dt > 0.0 ? 1.0 / host.dt : 0.0);
+  const double viscous = options_.rubs() ? options_.friction_viscosity * law.critical * inverse_h : 0.0;
+  double tangent = std::max(law.tangent + law.damping * inverse_h, viscous);
+  if (!options_.reference_step) tangent = std::max(tangent, pair.spring);
+  stiffness[self] += tangent;
+  double smallest = mass > 0.0 ? 2.0 * mass / tangent : 1e30;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const Index to = surface_own_[at(corner[i])];
+    normal_[at(to)] -= share[i] * normal;
+    tangential_[at(to)] += share[i] * pair.friction;
+    stiffness[host_of(to)] += share[i] * tangent;
+    const double m = mass_of(host, host_of(to));
+    if (share[i] > 0.0 && m > 0.0) smallest = std::min(smallest, 2.0 * m / (share[i] * tangent));
+  }
+  if (options_.step_minimum > 0.0 && options_.step_scale * std::sqrt(smallest) <= options_.step_minimum) gone_[at(node)] = 1;
   result.normal_force -= normal;
   result.tangential_force += pair.friction;
   result.largest_penetration = std::max(result.largest_penetration, p);
   result.largest_approach = std::max(result.largest_approach, -vn * host.dt / options_.gap);
   sums.elastic += law.energy;
-  sums.friction_rate += 0.5 * dot(vt, pair.friction + old.friction);
-  sums.damping_rate += law.damping * vn * vn;
+  sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * (pair.damping + old.damping));
   pairs_.push_back(pair);
+  return true;
 }
 
 StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   StepResult result;
-  std::swap(pairs_, previous_);
-  pairs_.clear();
   in_contact_.clear();
   std::fill(normal_.begin(), normal_.end(), Vec3{});
   std::fill(tangential_.begin(), tangential_.end(), Vec3{});
   Sums sums;
+  // A friction spring whose pair has opened lets go of what it stored.
+  const auto let_go = [&sums](const Pair& pair) {
+    if (pair.spring > 0.0) sums.friction_work += 0.5 * squared_norm(pair.friction) / pair.spring;
+  };
   if (acts(host)) {
+    std::swap(pairs_, previous_);
+    pairs_.clear();
     std::size_t next = 0;
-    std::vector<Index>& facets = scratch_;
     for (Index node = 0; node < held_.node_count(); ++node) {
-      if (gone_[at(node)] != 0) continue;
-      facets.clear();
-      const Index self = held_.nodes()[at(node)];
-      for (const Candidates::Entry& entry : candidates_.of(node)) {
-        const auto& corners = surface_.surface().facets()[at(entry.facet)].node;
-        if (surface_.active(entry.facet) && std::find(corners.begin(), corners.end(), self) == corners.end()) facets.push_back(entry.facet);
-      }
-      std::sort(facets.begin(), facets.end());
-      const std::size_t before = pairs_.size();
-      for (const Index facet : facets) {
-        while (next < previous_.size() && (previous_[next].node < node || (previous_[next].node == node && previous_[next].facet < facet)))
-          ++next;
+      if (gone_[at(node)] != 0 || !held_.node_active(node)) continue;
+      bool touches = false;
+      for (const Index facet : facets_of(candidates_, node, scratch_)) {
+        while (next < previous_.size() &&
+               (previous_[next].node < node || (previous_[next].node == node && previous_[next].facet < facet)))
+          let_go(previous_[next++]);
         const bool known = next < previous_.size() && previous_[next].node == node && previous_[next].facet == facet;
-        add_pair(host, node, facet, known ? previous_[next] : Pair{node, facet, 0.0, {}}, stiffness, result, sums);
+        const std::size_t count = pairs_.size();
+        touches = add_pair(host, node, facet, known ? previous_[next] : Pair{node, facet, 0.0, {}}, stiffness, result, sums) || touches;
+        if (known && (pairs_.size() == count || pairs_.back().spring == 0.0)) let_go(previous_[next]);
+        if (known) ++next;
       }
-      if (pairs_.size() > before) in_contact_.push_back(self);
+      if (touches) in_contact_.push_back(held_.nodes()[at(node)]);
     }
+    while (next < previous_.size()) let_go(previous_[next++]);
     speed_limit(host, result);
-    started_ = true;
+  } else {
+    // Outside of the time window nothing acts; what initial penetrations take from the gap stays for a later birth.
+    for (Pair& pair : pairs_) {
+      let_go(pair);
+      pair = {pair.node, pair.facet, pair.offset, {}};
+    }
   }
-  friction_work_ += host.dt * sums.friction_rate;
-  damping_work_ += host.dt * sums.damping_rate;
+  if (!started_) initial_elastic_ = sums.elastic;
+  started_ = true;
+  friction_work_ += sums.friction_work;
+  damping_work_ += sums.damping_work;
   contact_work_ += discrete_work(host);
   for (std::size_t i = 0; i < own_.size(); ++i) force[at(own_[i])] += normal_[i] + tangential_[i];
   result.elastic = sums.elastic;
   result.friction_work = friction_work_;
   result.damping_work = damping_work_;
-  result.made = contact_work_ + sums.elastic + friction_work_ + damping_work_;
+  result.made = contact_work_ + (sums.elastic - initial_elastic_) + friction_work_ + damping_work_;
   result.in_contact = static_cast<Index>(in_contact_.size());
   return result;
 }
@@ -220,7 +374,7 @@ void BothSides::speed_limit(const HostState& host, StepResult& result) const {
   for (int k = 0; k < 3; ++k) speed[k] = std::max({held_high[k] - low[k], high[k] - held_low[k], 0.0});
   const double size = norm(speed);
   if (!(size > 0.0) || size > big) return;
-  const double step = 0.9 * options_.gap / size;
+  const double step = 0.9 * narrowest_ / size;
   if (step < result.kinematic_step) result.kinematic_step = step;
 }
 
@@ -257,7 +411,9 @@ std::vector<std::byte> BothSides::history() const {
   out.put_all(old_force_);
   out.put_all(old_x_);
   out.put_all(gone_);
+  out.put_all(off_);
   out.put(started_);
+  out.put(initial_elastic_);
   out.put(friction_work_);
   out.put(damping_work_);
   out.put(contact_work_);
@@ -268,13 +424,16 @@ void BothSides::restore(std::span<const std::byte> history) {
   HistoryReader in(history);
   std::uint64_t count = 0;
   in.get(count);
+  stale_ = true;
   if (count > history.size()) throw std::invalid_argument("contact history: damaged");
   pairs_.resize(count);
   in.get_all(pairs_);
   in.get_all(old_force_);
   in.get_all(old_x_);
   in.get_all(gone_);
+  in.get_all(off_);
   in.get(started_);
+  in.get(initial_elastic_);
   in.get(friction_work_);
   in.get(damping_work_);
   in.get(contact_work_);

@@ -16,6 +16,7 @@ class BothSides final : public InterfaceModel {
   BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions options);
 
   void set_surface(int side, const SurfaceState& state) override;
+  [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const override;
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
   void commit(double) override {}
@@ -31,16 +32,34 @@ class BothSides final : public InterfaceModel {
     Index node = no_index, facet = no_index;
     double offset = 0.0;  ///< p_0
     Vec3 friction;        ///< F
+    double damping = 0.0;  ///< damping force along the normal
+    double spring = 0.0;   ///< tangential stiffness of the incremental form
+  };
+  /// Geometry of a pair with its full gap.
+  struct Met {
+    BothSidesContact contact;
+    double gap = 0.0;
   };
   /// Sums over the pairs of one cycle.
   struct Sums {
-    double elastic = 0.0, friction_rate = 0.0, damping_rate = 0.0;
+    double elastic = 0.0, friction_work = 0.0, damping_work = 0.0;
   };
 
+  [[nodiscard]] bool variable_gap() const { return !options_.node_gap.empty(); }
+  [[nodiscard]] static Met meet(const Side& held, const Side& surface, Index node, Index facet, double gap);
+  /// Facets that the node can meet: listed, active, not its own; ascending.
+  [[nodiscard]] std::span<const Index> facets_of(const Candidates& candidates, Index node, std::vector<Index>& scratch) const;
+  [[nodiscard]] double pair_stiffness(Index node, Index facet) const;
+  [[nodiscard]] double mass_of(const HostState& host, std::size_t n) const { return host.mass.empty() ? 0.0 : host.mass[n]; }
+  [[nodiscard]] Vec3 friction_of(const HostState& host, const Pair& old, Pair& pair, const Vec3& normal, const Vec3& v, double vn,
+                                 double pressing, double critical, Sums& sums) const;
+  /// Initial penetrations: who leaves, what is switched off (numerics.md 7.7.1).
+  /// @param awake  false: the interface is born later, what is there now is kept for then
+  void settle(bool awake);
   [[nodiscard]] double pair_gap(Index node, Index facet) const;
   [[nodiscard]] double reach(Index node) const;
   [[nodiscard]] bool acts(const HostState& host) const { return host.time >= options_.birth && host.time <= options_.death; }
-  void add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
+  bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                 Sums& sums);
   [[nodiscard]] double offset_of(const Pair& old, double gap, double penetration) const;
   void speed_limit(const HostState& host, StepResult& result) const;
@@ -55,7 +74,10 @@ class BothSides final : public InterfaceModel {
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
   std::vector<Index> in_contact_, scratch_;
-  bool started_ = false;
+  std::vector<std::uint8_t> off_;                              // #F: without stiffness for good (drop_facets)
+  double widest_ = 0.0, narrowest_ = 0.0;                      // largest gap of a facet; smallest gap of any pair
+  bool started_ = false, stale_ = true;
+  double initial_elastic_ = 0.0;
   double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0;
 };
 

@@ -24,6 +24,9 @@ Interface Interface::both_sides(std::vector<Index> nodes, Surface surface, const
 }
 
 void Interface::set_surface(int side, const SurfaceState& state) { model_->set_surface(side, state); }
+std::vector<Projection> Interface::projections(std::span<const Vec3> x, bool move_surface) const {
+  return model_->projections(x, move_surface);
+}
 void Interface::search(const HostState& host) { model_->search(host); }
 StepResult Interface::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   return model_->evaluate(host, force, stiffness);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "contact/project/plain.hpp"
+
 namespace abut::contact {
 namespace {
 
@@ -16,6 +18,9 @@ void check(const Options& o) {
   if (!(o.friction >= 0.0)) refuse("friction must be >= 0", o.friction);
   if (!(o.tangential_ratio > 0.0)) refuse("tangential_ratio must be > 0", o.tangential_ratio);
   if (!(o.gap >= 0.0) || !std::isfinite(o.gap)) refuse("gap must be >= 0", o.gap);
+  if (!(o.damping >= 0.0 && o.damping <= 1.0)) refuse("damping must be 0 to 1 of critical", o.damping);
+  if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) refuse("filter share must be > 0 and at most 1", o.filter.share);
+  if (!(o.filter.frequency >= 0.0)) refuse("filter frequency must be >= 0", o.filter.frequency);
   if (!(o.shear_limit > 0.0)) refuse("shear_limit must be > 0", o.shear_limit);
   if (!(o.depth_limit >= 0.0)) refuse("depth_limit must be >= 0", o.depth_limit);
 }
@@ -83,6 +88,53 @@ void OneSided::set_surface(int side, const SurfaceState& state) {
   for (Pass& pass : pass_) pass.invalidate();
 }
 
+// numerics.md 7.2.5: nodes in their order, each on the geometry that its predecessors left; the whole loop twice.
+void OneSided::project(Side& held, Side& surface, bool move_surface, std::vector<Vec3>& moved) const {
+  constexpr double hair = 1.0 + 1e-8;
+  IncrementalSearch search;
+  std::vector<Tracked> tracked(at(held.node_count()));
+  for (int loop = 0; loop < 2; ++loop) {
+    held.gather(moved);
+    surface.gather(moved);
+    bool surface_moved = false;
+    search.start(held, surface, tracked);
+    for (Index i = 0; i < held.node_count(); ++i) {
+      const Index facet = tracked[at(i)].facet;
+      if (facet == no_index) continue;
+      const Index node = held.nodes()[at(i)];
+      const auto& corners = surface.surface().facets()[at(facet)].node;
+      if (std::find(corners.begin(), corners.end(), node) != corners.end()) continue;
+      if (surface_moved) surface.gather(moved);
+      const PlainPoint p = project_plain(surface.patch(facet), moved[at(node)], options_.gap, true);
+      constexpr double starter_tolerance = 0.02;
+      if (std::abs(p.raw_s) > 1.0 + starter_tolerance || std::abs(p.raw_t) > 1.0 + starter_tolerance) continue;
+      const double outside = p.distance - options_.gap;
+      if (outside >= 0.0) continue;
+      const Vec3 by = (-outside * hair) * p.normal;
+      surface_moved = move_surface || surface.surface().find(node) != no_index;
+      if (!move_surface) {
+        moved[at(node)] += by;
+        continue;
+      }
+      const std::size_t count = surface.surface().facets()[at(facet)].is_triangle() ? 3 : 4;
+      for (std::size_t k = 0; k < count; ++k) moved[at(corners[k])] -= by;
+    }
+  }
+}
+
+std::vector<Projection> OneSided::projections(std::span<const Vec3> x, bool move_surface) const {
+  std::vector<Vec3> moved(x.begin(), x.end());
+  std::array<Side, 2> side = side_;
+  project(side[0], side[1], move_surface, moved);
+  if (two_passes_) project(side[1], side[0], move_surface, moved);
+  std::vector<Projection> out;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 by = moved[i] - x[i];
+    if (squared_norm(by) > 0.0) out.push_back({static_cast<Index>(i), by});
+  }
+  return out;
+}
+
 void OneSided::search(const HostState& host) {
   for (std::size_t k = 0; k < 2; ++k) {
     if (largest_node(side_[k]) > host.x.size()) throw std::invalid_argument("contact: the host has fewer nodes than the interface");
@@ -124,6 +176,8 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
 
   StepResult result;
   friction_step_ = total[0].dissipated + total[1].dissipated;
+  damping_step_ = total[0].damped + total[1].damped;
+  result.damping_work = damping_work_ + damping_step_;
   result.elastic = (total[0].potential + total[0].stick) + (total[1].potential + total[1].stick);
   result.friction_work = friction_work_ + friction_step_;
   const double work = (loads_[0].work + loads_[0].work_step) + (loads_[1].work + loads_[1].work_step);
@@ -157,6 +211,8 @@ void OneSided::commit(double) {
   }
   friction_work_ += friction_step_;
   friction_step_ = 0.0;
+  damping_work_ += damping_step_;
+  damping_step_ = 0.0;
 }
 
 void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
@@ -185,6 +241,7 @@ std::vector<std::byte> OneSided::history() const {
   out.put(static_cast<std::uint64_t>(evaluated_ ? 1 : 0));
   out.put(initial_elastic_);
   out.put(friction_work_);
+  out.put(damping_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     out.put(loads_[k].work);
     out.put_all(loads_[k].force_before);
@@ -203,6 +260,7 @@ void OneSided::restore(std::span<const std::byte> history) {
   evaluated_ = started != 0;
   in.get(initial_elastic_);
   in.get(friction_work_);
+  in.get(damping_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     in.get(loads_[k].work);
     in.get_all(loads_[k].force_before);

@@ -14,6 +14,7 @@ class OneSided final : public InterfaceModel {
   OneSided(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options);
 
   void set_surface(int side, const SurfaceState& state) override;
+  [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const override;
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
   void commit(double dt) override;
@@ -30,11 +31,12 @@ class OneSided final : public InterfaceModel {
   std::array<SideLoads, 2> loads_;
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
   std::vector<Index> in_contact_;
-  double friction_work_ = 0.0, friction_step_ = 0.0;
+  double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0;
   double initial_elastic_ = 0.0;  ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
 
   void prepare();
+  void project(Side& held, Side& surface, bool move_surface, std::vector<Vec3>& moved) const;
 };
 
 }  // namespace abut::contact

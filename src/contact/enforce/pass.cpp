@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/enforce/coefficient.hpp"
 #include "contact/enforce/switching.hpp"
 #include "contact/project/plain.hpp"
 #include "contact/search/swept.hpp"
@@ -11,6 +12,7 @@ namespace abut::contact {
 namespace {
 
 constexpr Index group = 128;         // nodes handled together (numerics.md 7.3.1)
+constexpr double never = 1e300;      // offset of a node that is ignored
 constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
 
 Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
@@ -60,7 +62,7 @@ void Pass::start(const Side& held, const Side& surface) {
   tracked_.assign(at(held.node_count()), {});
   if (closest()) return;
   incremental_.start(held, surface, tracked_);
-  if (!options_.rules.reference_friction || options_.friction <= 0.0) return;
+  if (!options_.rules.reference_friction || !options_.rubs()) return;
   // 7.2.5: nodes that touch at the start rub from the first cycle.
   constexpr double starter_tolerance = 0.02;
   for (Index i = 0; i < held.node_count(); ++i) {
@@ -147,6 +149,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     const double reached = options_.gap + 4.0 * moved;
     if (moved < 0.25 * smallest_depth_ && candidates_.nearest_then(i) - candidates_.slack() > reached) {
       touch.far = true;
+      after.offset = 0.0;
       return;
     }
   }
@@ -162,10 +165,12 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     touch.distance = measure.distance;
   };
   bool meets = false;
+  double gap = options_.gap;
   after.in_front = m.found() && !m.closest.beyond && m.distance >= 0.0 ? 1 : 0;
   if (m.found()) {
     take(m);
-    meets = !m.closest.beyond && options_.gap - m.distance > 0.0;
+    gap = gap_of(m.distance, after);
+    meets = !m.closest.beyond && gap - m.distance > 0.0;
     if (!m.closest.beyond && m.distance >= 0.0) after.ignored = 0;
     if (meets && !was_held && m.distance < 0.0 && !options_.rules.unlimited_depth) {
       const double depth = depth_[at(m.facet)];
@@ -175,8 +180,9 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     }
   } else {
     after.ignored = 0;
+    after.offset = 0.0;
   }
-  if (!meets && !was_held && before.ignored == 0 && host.dt > 0.0) {
+  if (!meets && !was_held && before.ignored == 0 && after.offset == 0.0 && host.dt > 0.0) {
     const Index hit = swept_facet(held, surface, held_loads, surface_loads, i);
     if (hit != no_index) {
       const Measure caught = descend_to_nearest(surface, hit, x);
@@ -190,9 +196,22 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     }
   }
   if (!touch.known) return;
-  touch.area = 0.0;
-  touch.pair = pair_force(surface, m, x, law_, options_.gap, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_);
+  touch.penetration = gap - m.distance;
+  touch.pair = pair_force(surface, m, x, law_, gap, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_);
   touch.contact = meets && touch.pair.magnitude > 0.0;
+}
+
+double Pass::gap_of(double distance, NodeState& after) const {
+  const double full = options_.gap - distance;
+  if (!settled_) {
+    if (full > 0.0 && options_.initial == Initial::offset) after.offset = full;
+    if (full > 0.0 && options_.initial == Initial::ignore) after.offset = never;
+  } else if (full <= 0.0) {
+    after.offset = 0.0;
+  } else if (after.offset < never) {
+    after.offset = std::min(after.offset, full);  // what the node has moved away is gap again
+  }
+  return options_.gap - after.offset;
 }
 
 void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& touch) {
@@ -208,8 +227,8 @@ void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& 
   touch.point = p.point;
   touch.normal = p.normal;
   touch.distance = p.distance;
-  touch.area = p.area;
-  const double penetration = options_.gap - p.distance;
+  const double penetration = gap_of(p.distance, next_[at(i)]) - p.distance;
+  touch.penetration = penetration;
   const double k1 = surface.facet_stiffness(t.facet);
   const double k2 = held.node_stiffness(i);
   PairForce& pair = touch.pair;
@@ -278,7 +297,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     look_ahead(host, held, surface, held_loads, i);
     return;
   }
-  const double penetration = options_.gap - touch.distance;
+  const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
   const double closing = -motion.rate;
   if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, closing * host.dt / options_.gap);
@@ -291,7 +310,18 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
       const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
       double tangent = touch.pair.stiffness * law_.tangent(reached) + touch.pair.extra_tangent;
-      if (options_.friction > 0.0) tangent *= std::sqrt(1.0 + options_.friction * options_.friction);
+      if (options_.rubs()) {
+        const double pressure = touch.pair.magnitude / surface.facet_area(touch.facet);
+        const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
+        tangent *= std::sqrt(1.0 + mu * mu);
+      }
+      if (options_.damping > 0.0) {
+        // With viscous forces from the step before, h^2 K/4 + h C/2 <= 1: in the terms of one spring (sqrt(1 + z^2) + z)^2, or 2 C/h.
+        const double z = options_.damping;
+        const double root = std::sqrt(1.0 + z * z) + z;
+        const double c = motion.inverse_mass > 0.0 ? 2.0 * z * std::sqrt(tangent / motion.inverse_mass) : 0.0;
+        tangent = std::max(tangent * root * root, host.dt > 0.0 ? tangent + 2.0 * c / host.dt : 0.0);
+      }
       double spread = 0.0;
       for (const double w : touch.weight) spread += std::abs(w);
       tangent *= 0.5 * (1.0 + spread);
@@ -311,7 +341,6 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   totals.in_contact += 1;
   totals.crossed += touch.fresh_hit ? 1 : 0;
   totals.largest_penetration = std::max(totals.largest_penetration, penetration);
-  totals.potential += touch.pair.potential;
   in_contact_.push_back(held.nodes()[at(i)]);
 
   const bool fresh = before.held == 0;
@@ -324,28 +353,43 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
     const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, inverse_mass, others};
-    factor = switched_force(s, fresh) / touch.pair.magnitude;
+    const Switched switched = switched_force(s, fresh);
+    factor = switched.force / touch.pair.magnitude;
+    totals.potential += switched.stored;
+  } else {
+    totals.potential += touch.pair.potential;
   }
-  const double normal_force = factor * touch.pair.magnitude;
-  const Vec3 on_node = factor * touch.pair.on_node;
-  held_loads.own_normal[at(i)] = on_node;
+  double normal_force = factor * touch.pair.magnitude;
+  Vec3 on_node = factor * touch.pair.on_node;
   for (std::size_t k = 0; k < 4; ++k) { surface_loads.reaction_normal[at(corner[k])] += factor * touch.pair.on_facet[k]; }
+  after.damping = 0.0;
+  if (options_.damping > 0.0 && motion.inverse_mass > 0.0) {
+    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / motion.inverse_mass);
+    after.damping = std::max(-c * motion.rate, -normal_force);
+    totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
+    on_node += after.damping * touch.normal;
+    for (std::size_t k = 0; k < 4; ++k) surface_loads.reaction_normal[at(corner[k])] -= touch.weight[k] * after.damping * touch.normal;
+  }
+  held_loads.own_normal[at(i)] = on_node;
   totals.normal += on_node;
 
   after.held = 1;
   after.facet = touch.facet;
   after.normal = touch.normal;
   after.rate = motion.rate;
-  after.acceleration = normal_force * inverse_mass;
+  after.acceleration = (normal_force + after.damping) * inverse_mass;
+  normal_force += after.damping;
 
-  if (options_.friction > 0.0 && rub) {
-    double limit = options_.friction * normal_force;
+  if (options_.rubs() && rub) {
+    const double mu = friction_coefficient(options_.friction_law, options_.friction, normal_force / surface.facet_area(touch.facet),
+                                           norm(motion.tangential_velocity));
+    double limit = mu * normal_force;
     if (options_.shear_limit < 1e29 && !rules.reference_friction) {
       const double own_area = held.facet_count() > 0 ? held.tributary_area(i) : surface.facet_area(touch.facet);
       limit = std::min(limit, options_.shear_limit * own_area);
     }
     const Vec3 on_surface = rules.reference_friction
-                                ? rub_by_anchor(surface, touch, limit, before, after, totals)
+                                ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     held_loads.own_tangential[at(i)] = -on_surface;
     for (std::size_t k = 0; k < 4; ++k) surface_loads.reaction_tangential[at(corner[k])] += touch.weight[k] * on_surface;
@@ -378,6 +422,9 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
       if (touch.contact) continue;
       const NodeState& before = state_[at(i)];
       after.held = 0;
+      // The last damping force acts over half of the step that ends the contact.
+      if (before.damping != 0.0) totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
+      after.damping = 0.0;
       after.rate = 0.0;
       after.acceleration = 0.0;
       if (!anchors || any) {
@@ -385,11 +432,13 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
         if (before.tangential_stiffness > 0.0) { totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness; }
         after.anchored = 0;
         after.slip = {};
+        if (!anchors) after.filtered = {};
         after.friction = {};
         after.tangential_stiffness = 0.0;
       }
     }
   }
+  settled_ = true;
   return totals;
 }
 
@@ -414,6 +463,7 @@ void Pass::save(HistoryWriter& out) const {
   out.put(static_cast<std::uint64_t>(started_ ? depth_.size() : 0));
   for (const double d : depth_) out.put(d);
   out.put(size_);
+  out.put(settled_);
   for (const Tracked& t : tracked_) out.put(t);
 }
 
@@ -426,6 +476,7 @@ void Pass::load(HistoryReader& in) {
   depth_.resize(facets);
   for (double& d : depth_) in.get(d);
   in.get(size_);
+  in.get(settled_);
   tracked_.resize(started_ ? state_.size() : 0);
   for (Tracked& t : tracked_) in.get(t);
   stale_ = true;

@@ -42,11 +42,14 @@ struct NodeState {
   Vec3 slip;            ///< return mapping: elastic slip in the anchor's facet frame; anchors: F0
   Vec3 slip_normal;     ///< return mapping: contact normal in the same frame
   Vec3 friction;        ///< friction force of the last step, as it acted on the surface
+  Vec3 filtered;        ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
   SurfacePoint anchor;  ///< return mapping: last contact point; anchors: where F0 acted
   SurfacePoint last;    ///< last contact point
   double tangential_stiffness = 0.0;
   double rate = 0.0;          ///< speed of opening in the last step
   double acceleration = 0.0;  ///< that the contact force gave to the opening
+  double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
+  double damping = 0.0;       ///< damping force of the last step
   std::int32_t facet = no_index;
   std::uint8_t held = 0;
   std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
@@ -56,7 +59,7 @@ struct NodeState {
 
 struct PassTotals {
   Vec3 normal, tangential;  ///< on the held nodes
-  double potential = 0.0, stick = 0.0, dissipated = 0.0;
+  double potential = 0.0, stick = 0.0, dissipated = 0.0, damped = 0.0;
   double largest_penetration = 0.0, largest_approach = 0.0;
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;
@@ -93,7 +96,7 @@ class Pass {
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;
-    double area = 0.0;  ///< of the facet
+    double penetration = 0.0;
     PairForce pair;
   };
   struct Kinematics {
@@ -108,6 +111,7 @@ class Pass {
   bool half_of_facet_ = false;
   bool stale_ = true;
   bool started_ = false;
+  bool settled_ = false;  ///< initial penetrations are dealt with
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
   std::vector<double> depth_;  ///< per facet: how far behind a node is still met
   std::vector<NodeState> state_, next_;
@@ -119,6 +123,8 @@ class Pass {
   double surface_step_ = 0.0;  ///< largest motion of the surface in the last step, relative to its mean
   Vec3 mean_step_;
 
+  /// Gap of a node at this distance, less what initial penetration takes from it.
+  [[nodiscard]] double gap_of(double distance, NodeState& after) const;
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                        const SideLoads& surface_loads, Index i, Touch& touch);
@@ -131,8 +137,8 @@ class Pass {
   [[nodiscard]] Vec3 rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion,
                                            double limit, double fraction, const NodeState& before, NodeState& after,
                                            PassTotals& totals) const;
-  [[nodiscard]] Vec3 rub_by_anchor(const Side& surface, const Touch& touch, double limit, const NodeState& before, NodeState& after,
-                                   PassTotals& totals) const;
+  [[nodiscard]] Vec3 rub_by_anchor(const HostState& host, const Side& surface, const Touch& touch, double limit, const NodeState& before,
+                                   NodeState& after, PassTotals& totals) const;
   void look_ahead(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i) const;
 };
 

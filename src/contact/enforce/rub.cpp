@@ -1,4 +1,5 @@
 // The two friction rules of a pass.
+#include <algorithm>
 #include <cmath>
 
 #include "contact/enforce/friction.hpp"
@@ -41,11 +42,13 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
   Vec3 elastic{};
   Vec3 force_before{};
   Vec3 increment{};
+  Vec3 filtered{};
   if (before.anchored != 0) {
     const auto facet = static_cast<Index>(before.anchor.facet);
     const Frame frame = frame_of(surface, facet);
     elastic = turned(frame.to_world(before.slip), frame.to_world(before.slip_normal), touch.normal);
     elastic -= dot(elastic, touch.normal) * touch.normal;
+    if (options_.filter.acts()) filtered = turned(frame.to_world(before.filtered), frame.to_world(before.slip_normal), touch.normal);
     force_before = before.tangential_stiffness * elastic;
     increment = touch.point - point_of(surface, before.anchor);
   } else {
@@ -53,7 +56,16 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
     increment = (fraction * host.dt) * motion.tangential_velocity;
   }
   increment -= dot(increment, touch.normal) * touch.normal;
-  const SlipResult result = slip(elastic, force_before, increment, stiffness, limit);
+  SlipResult result = slip(elastic, force_before, increment, stiffness, limit);
+  if (options_.filter.acts()) {
+    // The filter holds part of the trial slip back: that part slides.
+    const double a = options_.filter.weight(host.dt);
+    filtered = a * (elastic + increment) + (1.0 - a) * filtered;
+    filtered -= dot(filtered, touch.normal) * touch.normal;
+    const double size = stiffness * norm(filtered);
+    result.elastic = size > limit ? (limit / size) * filtered : filtered;
+    result.dissipated = std::max(0.0, 0.5 * dot(force_before + stiffness * result.elastic, (elastic + increment) - result.elastic));
+  }
   totals.dissipated += result.dissipated;
   totals.stick += 0.5 * stiffness * squared_norm(result.elastic);
 
@@ -62,6 +74,7 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
   after.anchor = {touch.weight, touch.facet};
   after.last = after.anchor;
   after.slip = frame.to_local(result.elastic);
+  after.filtered = frame.to_local(filtered);
   after.slip_normal = frame.to_local(touch.normal);
   after.tangential_stiffness = stiffness;
   after.friction = stiffness * result.elastic;
@@ -69,8 +82,8 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
 }
 
 // numerics.md 7.4.3, to the letter; only its energy is ours (7.4.4 says why).
-Vec3 Pass::rub_by_anchor(const Side& surface, const Touch& touch, double limit, const NodeState& before, NodeState& after,
-                         PassTotals& totals) const {
+Vec3 Pass::rub_by_anchor(const HostState& host, const Side& surface, const Touch& touch, double limit, const NodeState& before,
+                         NodeState& after, PassTotals& totals) const {
   const double stiffness = options_.tangential_ratio * touch.pair.stiffness;
   const SurfacePoint here{touch.weight, touch.facet};
   after.last = here;
@@ -82,7 +95,13 @@ Vec3 Pass::rub_by_anchor(const Side& surface, const Touch& touch, double limit, 
     after.friction = {};
     return {};
   }
-  const Vec3 trial = before.slip + stiffness * (touch.point - point_of(surface, before.anchor));
+  Vec3 trial = before.slip + stiffness * (touch.point - point_of(surface, before.anchor));
+  if (options_.filter.acts()) {
+    // 7.4.5: before the slip test; the filtered value stays when the contact opens.
+    const double a = options_.filter.weight(host.dt_bar_old);
+    trial = a * trial + (1.0 - a) * before.filtered;
+    after.filtered = trial;
+  }
   const Vec3& n = touch.normal;
   Vec3 direction = trial - dot(trial, n) * n;
   const double tangential = norm(direction);

@@ -6,6 +6,8 @@
 //   last cycle, at P before moving D' > P outwards: f (D + D')/2 = Psi(P + D) - F(P + D) D/2,         D' = D + h^2 (f/m + a)
 // (the second is the first with time reversed). For the linear law and constant speed both are f = F (1 + P/D)/2. They
 // are continuous: where the step just ends at the surface (D or D' = P) the law's own force solves them.
+// In these two cycles the energy that the force holds is what it took in the step before, f D/2, or will give back in the step
+// after, f D'/2: with it, as with Psi in between, every single step of leap-frog balances.
 // h the last step, taken for the coming one too; m effective mass of the pair; a the opening acceleration by all other
 // forces as seen over the last step. With masses not given, speeds count as constant. Fixed point: contracts for h^2 K/m < 1.
 #pragma once
@@ -24,9 +26,13 @@ struct Switching {
   double others = 0.0;        ///< a
 };
 
+struct Switched {
+  double force = 0.0;   ///< instead of kappa phi'(P)
+  double stored = 0.0;  ///< instead of kappa phi(P)
+};
+
 /// @param first  contact began in the last step
-/// @return the force instead of kappa phi'(P)
-[[nodiscard]] inline double switched_force(const Switching& s, bool first) {
+[[nodiscard]] inline Switched switched_force(const Switching& s, bool first) {
   const auto force = [&s](double p) { return s.stiffness * s.law.force(p); };
   const auto missing = [&](double p, double moved) { return s.stiffness * s.law.potential(p) - 0.5 * force(p) * moved; };
   const double plain = force(s.penetration);
@@ -46,19 +52,24 @@ struct Switching {
       if (inwards + next <= 0.1 * inwards) break;  // turns around: no work to correct
       f = 2.0 * missing(s.penetration + next, next) / (inwards + next);
     }
-    return f;
+    return {f, 0.5 * f * inwards};
   }
   const double outwards = -inwards;
-  if (outwards + kick * plain + drift <= s.penetration) return plain;
-  if (outwards <= 0.0) return 0.5 * plain + stored / (outwards + kick * plain + drift);
+  if (outwards + kick * plain + drift <= s.penetration) return {plain, stored};
+  if (outwards <= 0.0) {
+    const double next = outwards + kick * plain + drift;
+    const double f = 0.5 * plain + stored / next;
+    return {f, 0.5 * f * next};
+  }
   const double work = missing(s.penetration + outwards, outwards);
   double f = plain;
+  double next = 0.0;
   for (int i = 0; i < iterations; ++i) {
-    const double next = outwards + kick * f + drift;
-    if (next <= 0.0) return plain;
+    next = outwards + kick * f + drift;
+    if (next <= 0.0) return {plain, stored};
     f = 2.0 * work / (outwards + next);
   }
-  return f;
+  return {f, work - 0.5 * f * outwards};
 }
 
 }  // namespace abut::contact

@@ -51,6 +51,10 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   check(state.stiffness.size(), "stiffness");
   check(state.thickness.size(), "thickness");
   check(state.active.size(), "activity");
+  if (!state.node_active.empty() && state.node_active.size() != nodes_.size()) {
+    throw std::invalid_argument("contact: " + std::to_string(state.node_active.size()) + " values of node activity for " +
+                                std::to_string(nodes_.size()));
+  }
   for (std::size_t i = 0; i < state.stiffness.size(); ++i) {
     if (!(state.stiffness[i] >= 0.0) || !std::isfinite(state.stiffness[i])) {
       throw std::invalid_argument("contact: stiffness " + std::to_string(i) + " is not a finite number >= 0");
@@ -82,15 +86,16 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     double mean = 0.0;
     int around = 0;
     for (const Index f : surface_.facets_at(s)) {
-      if (!active(f)) continue;
+      if (!active(f) && state.node_active.empty()) continue;
       const Facet& facet = surface_.facets()[at(f)];
       double share = facet.is_triangle() ? 1.0 / 3.0 : 0.25;
       if (facet.is_triangle() && third_node_twice) share = surface_.local()[at(f)][2] == s ? 0.5 : 0.25;
       sum += share * facet_stiffness(f);
+      if (!active(f)) continue;
       mean += facet_stiffness(f);
       ++around;
     }
-    node_active_[at(s)] = around > 0 ? 1 : 0;
+    node_active_[at(s)] = state.node_active.empty() ? (around > 0 ? 1 : 0) : state.node_active[at(s)];
     node_stiffness_[at(s)] = sum;
     corner_stiffness_[at(s)] = around > 0 ? mean / around : 0.0;
   }

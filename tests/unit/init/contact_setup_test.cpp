@@ -1,0 +1,194 @@
+// Cards of TYPE5 and TYPE7 as interfaces: stiffness, gaps, sensors, moved nodes, erosion (numerics.md 7.2, 7.4.7, 7.7.1).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "init/contact_setup.hpp"
+
+namespace abut::init {
+namespace {
+
+/// A plate of two shells 1 x 1 (thickness 0.02 and 0.04) at z = 0 and a shell (thickness 0.03, E = 3) above it at z = `height`.
+struct Plates {
+  model::Model m;
+  model::InterfaceType7 t7;
+  model::Interface card;
+
+  explicit Plates(double height) {
+    const auto node = [&](double x, double y, double z) {
+      m.node_id.push_back(static_cast<Id>(m.node_id.size()) + 1);
+      m.node_x.push_back({x, y, z});
+    };
+    for (const double y : {0.0, 1.0}) {
+      for (const double x : {0.0, 1.0, 2.0}) node(x, y, 0.0);
+    }
+    for (const Vec3 p : {Vec3{0.3, 0.3, 0}, Vec3{1.3, 0.3, 0}, Vec3{1.3, 0.7, 0}, Vec3{0.3, 0.7, 0}}) node(p.x, p.y, height);
+    for (const double young : {2.0, 3.0}) m.materials.push_back({1, "", 1.0, 1.0, model::LawElastic{young, 0.0}});
+    for (const double t : {0.02, 0.04, 0.03}) {
+      model::ShellProperty p;
+      p.thickness = t;
+      m.properties.push_back({1, "", p});
+    }
+    for (Index k = 0; k < 3; ++k) {
+      m.parts.push_back({k + 1, "", k, k < 2 ? 0 : 1, 0.0});
+      m.shells.id.push_back(k + 1);
+      m.shells.part.push_back(k);
+      m.shells.thickness.push_back(0.0);
+    }
+    m.shells.nodes = {{0, 1, 4, 3}, {1, 2, 5, 4}, {6, 7, 8, 9}};
+    m.surfaces.push_back({1, "", {{{0, 1, 4, 3}, {model::ElementKind::shell4, 0}}, {{1, 2, 5, 4}, {model::ElementKind::shell4, 1}}}});
+    t7.nodes = {6, 7, 8, 9};
+    t7.surface = 0;
+    t7.vis_f = 0.0;
+    card.id = 1;
+    card.stfac = 1.0;
+  }
+  void add() {
+    card.type = t7;
+    m.interfaces.push_back(card);
+  }
+  [[nodiscard]] state::State state() const {
+    state::State s = state::State::zeros(m.node_count());
+    for (std::size_t i = 0; i < s.x.size(); ++i) s.x[i] = m.node_x[i];
+    s.mass.assign(s.x.size(), 1.0);
+    return s;
+  }
+  /// z force on a node at `time`.
+  [[nodiscard]] double force(RunInterface& r, Index node, double time = 0.0) const {
+    const state::State s = state();
+    std::vector<Vec3> f(s.x.size());
+    std::vector<double> k(s.x.size());
+    const contact::HostState host{s.x, s.v, s.mass, time, 0.0, 0.0};
+    r.contact.search(host);
+    (void)r.contact.evaluate(host, f, k);
+    r.contact.commit(0.0);
+    return f[static_cast<std::size_t>(node)].z;
+  }
+  double force(Index node) {
+    add();
+    state::State s = state();
+    auto run = make_interfaces(m, Profile::standard(), {}, s);
+    return force(run[0], node);
+  }
+};
+
+double law(double k, double gap, double height) { return 0.5 * k * gap / height * (gap - height); }
+
+TEST(Type7Setup, stiffness_rules) {
+  // Node 6 lies over the first facet: K_m = 2 x 0.02; K_s = 3 x 0.03.
+  const double main = 0.04, own = 0.09;
+  const std::array<double, 6> expected{main, 2 * 0.7, 0.5 * (main + own), own, main, main * own / (main + own)};
+  for (int istf = 0; istf <= 5; ++istf) {
+    Plates p(0.05);
+    p.t7.istf = istf;
+    p.t7.gap_given = true;
+    p.card.gap = 0.1;
+    if (istf == 1) p.card.stfac = 0.7;
+    EXPECT_NEAR(p.force(6), law(expected[static_cast<std::size_t>(istf)], 0.1, 0.05), 1e-14) << istf;
+  }
+  Plates p(0.05);
+  p.t7.istf = 3;
+  p.t7.st_max = 0.01;
+  p.t7.gap_given = true;
+  p.card.gap = 0.1;
+  EXPECT_NEAR(p.force(6), law(0.01, 0.1, 0.05), 1e-14);
+}
+
+TEST(Type7Setup, gap_rules) {
+  const auto force = [](double height, Index node, auto&& change) {
+    Plates p(height);
+    change(p);
+    return p.force(node);
+  };
+  const double h = 0.005;
+  // Igap 0: the mean thickness of the main shells; 1: the smallest is the least gap, halves of both sides count.
+  EXPECT_NEAR(force(h, 6, [](Plates&) {}), law(0.04, 0.03, h), 1e-14);
+  EXPECT_NEAR(force(h, 6, [](Plates& p) { p.t7.igap = 1; }), law(0.04, 0.025, h), 1e-14);
+  EXPECT_NEAR(force(h, 7, [](Plates& p) { p.t7.igap = 1; }), law(0.08, 0.035, h), 1e-14);
+  // 2: with the scale and the largest gap.
+  const auto scaled = [](double largest) {
+    return [largest](Plates& p) {
+      p.t7.igap = 2;
+      p.t7.gap_scale = 2.0;
+      p.t7.gap_max = largest;
+    };
+  };
+  EXPECT_NEAR(force(h, 7, scaled(1e30)), law(0.08, 0.07, h), 1e-14);
+  EXPECT_NEAR(force(h, 7, scaled(0.06)), law(0.08, 0.06, h), 1e-14);
+  // 3: nodes that are not on the main surface know no limit by the mesh.
+  EXPECT_NEAR(force(h, 7, [](Plates& p) { p.t7.igap = 3, p.t7.mesh_size = 1e-3; }), law(0.08, 0.035, h), 1e-14);
+  // No more than half of the shortest side.
+  EXPECT_NEAR(force(h, 6, [](Plates& p) { std::get<model::ShellProperty>(p.m.properties[0].data).thickness = 3.0; }), law(6.0, 0.5, h), 1e-12);
+  // The part's virtual thickness takes the place of the property's in gaps.
+  EXPECT_NEAR(force(h, 6, [](Plates& p) { p.m.parts[0].contact_thickness = 0.06; }), law(0.04, 0.05, h), 1e-14);
+}
+
+// With a sensor the interface is born when it fires; Tstart and Tstop do not count.
+TEST(Type7Setup, sensor_is_the_birth) {
+  Plates p(0.005);
+  p.m.sensors.push_back({1, 2.0, 3.0});
+  p.card.sensor = 0;
+  p.card.t_start = 0.0;
+  p.card.t_stop = 1.0;
+  p.add();
+  state::State s = p.state();
+  auto run = make_interfaces(p.m, Profile::standard(), {}, s);
+  EXPECT_EQ(p.force(run[0], 6, 0.5), 0.0);
+  EXPECT_GT(p.force(run[0], 6, 2.5), 0.0);
+  EXPECT_EQ(p.force(run[0], 6, 3.5), 0.0);
+}
+
+// Inacti 3 and 4 move the model's nodes once, with a note; left out, the set-up refuses.
+TEST(Settle, moves_nodes_and_says_so) {
+  for (const int inacti : {3, 4}) {
+    Plates p(0.005);
+    p.t7.inacti = inacti;
+    p.t7.gap_given = true;
+    p.card.gap = 0.02;
+    p.add();
+    state::State s = p.state();
+    EXPECT_THROW((void)make_interfaces(p.m, Profile::standard(), {}, s), std::logic_error);
+    Diagnostics findings;
+    settle_initial_penetrations(p.m, findings);
+    ASSERT_EQ(findings.all().size(), 1u);
+    EXPECT_EQ(findings.all()[0].code, "init.nodes_moved");
+    EXPECT_NE(findings.all()[0].message.find("the farthest by 0.015"), std::string::npos) << findings.all()[0].message;
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(p.m.node_x[i].z, inacti == 4 ? -0.015 : 0.0, 1e-9);
+    for (std::size_t i = 6; i < 10; ++i) EXPECT_NEAR(p.m.node_x[i].z, inacti == 3 ? 0.02 : 0.005, 1e-9);
+    s = p.state();
+    auto run = make_interfaces(p.m, Profile::standard(), {}, s);
+    EXPECT_EQ(p.force(run[0], 6), 0.0);
+  }
+  Plates five(0.005);
+  model::InterfaceType5 t5;
+  t5.nodes = {6, 7, 8, 9};
+  t5.surface = 0;
+  t5.inacti = 3;
+  five.card.gap = 0.02;
+  five.card.stfac = 0.2;
+  five.card.type = t5;
+  five.m.interfaces.push_back(five.card);
+  Diagnostics findings;
+  settle_initial_penetrations(five.m, findings);
+  for (std::size_t i = 6; i < 10; ++i) EXPECT_NEAR(five.m.node_x[i].z, 0.02, 1e-9);
+}
+
+// Nodes without a live element leave the interface, unless Idel is negative.
+TEST(Erosion, held_nodes_leave_with_their_elements) {
+  for (const int idel : {1, -1}) {
+    Plates p(0.005);
+    p.card.idel = idel;
+    p.add();
+    state::State s = p.state();
+    auto run = make_interfaces(p.m, Profile::standard(), {}, s);
+    EXPECT_GT(p.force(run[0], 6), 0.0);
+    update_erosion(p.m, run, [](const model::ElementRef& e) { return e.index != 2; });
+    EXPECT_EQ(p.force(run[0], 6) > 0.0, idel == -1);
+    update_erosion(p.m, run, [](const model::ElementRef& e) { return e.index != 0; });
+    EXPECT_EQ(p.force(run[0], 6), 0.0);      // over the dead facet (Idel 1: never comes back)
+    EXPECT_GT(p.force(run[0], 7), 0.0);      // over the other
+  }
+}
+
+}  // namespace
+}  // namespace abut::init
