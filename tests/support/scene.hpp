@@ -27,7 +27,7 @@ class Scene {
 
   Index elastic(double density, double young, double poisson);
   Index johnson_cook(double density, double young, double poisson, double a, double b, double n);
-  /// Isolid 1, or small strain without quadratic bulk viscosity for comparison with linear theory.
+  /// Isolid 1, or small strain without bulk viscosity, for comparison with linear theory.
   Index solid_property(int isolid = 1);
   Index linear_solid_property();
   Index shell_property(double thickness, int points = 3);
