@@ -58,6 +58,15 @@ Index Scene::solid_property(int isolid) {
   return static_cast<Index>(id) - 1;
 }
 
+Index Scene::linear_solid_property() {
+  const Index index = solid_property();
+  auto& p = std::get<model::SolidProperty>(model.properties[static_cast<std::size_t>(index)].data);
+  p.ismstr = 1;
+  p.qa = 0.0;
+  p.qb = 0.0;
+  return index;
+}
+
 Index Scene::shell_property(double thickness, int points) {
   const Id id = static_cast<Id>(model.properties.size()) + 1;
   model::ShellProperty p;
@@ -182,6 +191,27 @@ void Scene::load(const std::vector<Index>& nodes, int direction, double total, I
   load.scale_y = total / static_cast<double>(nodes.size());
   load.nodes = nodes;
   model.concentrated_loads.push_back(std::move(load));
+}
+
+void Scene::traction(const Block& b, int axis, bool high, int direction, double total, Index function) {
+  const auto p = static_cast<std::size_t>((axis + 1) % 3);
+  const auto q = static_cast<std::size_t>((axis + 2) % 3);
+  std::array<std::vector<Index>, 3> shared;  // by number of borders on which a node lies: quarter shares 4, 2, 1
+  for (int k = 0; k <= b.cells[q]; ++k) {
+    for (int j = 0; j <= b.cells[p]; ++j) {
+      std::array<int, 3> c{};
+      c[static_cast<std::size_t>(axis)] = high ? b.cells[static_cast<std::size_t>(axis)] : 0;
+      c[p] = j;
+      c[q] = k;
+      const std::size_t borders = (j == 0 || j == b.cells[p] ? 1U : 0U) + (k == 0 || k == b.cells[q] ? 1U : 0U);
+      shared[borders].push_back(b.at(c[0], c[1], c[2]));
+    }
+  }
+  const double facet = total / (b.cells[p] * b.cells[q]);
+  for (std::size_t borders = 0; borders < 3; ++borders) {
+    const double share = facet / static_cast<double>(1U << borders);
+    if (!shared[borders].empty()) load(shared[borders], direction, share * static_cast<double>(shared[borders].size()), function);
+  }
 }
 
 void Scene::gravity(int direction, double value) {

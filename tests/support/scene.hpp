@@ -27,7 +27,9 @@ class Scene {
 
   Index elastic(double density, double young, double poisson);
   Index johnson_cook(double density, double young, double poisson, double a, double b, double n);
+  /// Isolid 1, or small strain without bulk viscosity, for comparison with linear theory.
   Index solid_property(int isolid = 1);
+  Index linear_solid_property();
   Index shell_property(double thickness, int points = 3);
   Index part(Index property, Index material);
 
@@ -46,6 +48,8 @@ class Scene {
   void fix(const std::vector<Index>& nodes, std::array<bool, 3> translation, std::array<bool, 3> rotation = {});
   Index function(std::vector<double> x, std::vector<double> y);
   void load(const std::vector<Index>& nodes, int direction, double total, Index function = no_index);
+  /// Uniform traction on one side of a regular block: a total force shared by tributary area. Axis, high: as surface().
+  void traction(const Block& block, int axis, bool high, int direction, double total, Index function = no_index);
   void gravity(int direction, double value);
   /// TYPE3 with the given stiffness factor, friction and gap. @return index of the interface
   Index contact(Index surface_1, Index surface_2, double stfac = 0.2, double friction = 0.0, double gap = 0.0);

@@ -6,9 +6,15 @@
 //   0 <= t <= T:   F = Z v0 (1 - exp(-a t))
 //   t = T + s:     F = Z v0 [-1 + (2 a s + 2 - exp(-a T)) exp(-a s)]     until F = 0: the bars part.
 // k -> infinity: contact lasts T, force Z v0, velocities reversed (Graff 1975, Wave Motion in Elastic Solids, 2.1.4).
+// The theory is linear; at v = 0.1 the strain is 10 % and v/c = 0.1 a shock (bulk viscosity takes 2 % of the impulse),
+// so the bars are of small strain without viscosity (Ismstr 1, qa = qb = 0) and one element across: with
+// nu = 0 the problem is one-dimensional. (Several elements across have corner, edge and inner nodes with unlike springs: the
+// faces warp, and at v = 0.1 they also pass more than one element deep into each other.) At v = 0.01 two elements across,
+// large strain and the default viscosity agree as well.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "support/recorder.hpp"
 #include "support/scene.hpp"
@@ -25,12 +31,14 @@ struct Impact {
   double worst_error_free = 0.0, worst_error_contact = 0.0;
   double made = 0.0;  // |CX| at the end over the largest term
   Vec3 momentum_first, momentum_last;
+  double plateau = 0.0;     // mean normal force over 8 <= t <= 16
   double exit_speed = 0.0;  // mean z velocity of the first block at the end
 };
 
 struct BarCase {
   double length = 10.0, side = 1.0, young = 1.0, density = 1.0, v = 0.1;
-  int cells = 40, across = 2;
+  int cells = 80, across = 1;
+  bool linear = true;  // small strain, no quadratic bulk viscosity
   double s = 0.2, gap = 0.0;
   double end = 40.0;
   double step_scale = 0.9;
@@ -51,8 +59,13 @@ double total_stiffness(const BarCase& b) {
   return 2.0 * sum;
 }
 
-/// Contact time of the one-dimensional theory for two bars.
-double parting_time(const BarCase& b) {
+struct SpringTheory {
+  double parting = 0.0;  ///< contact time
+  double impulse = 0.0;
+};
+
+/// One-dimensional theory of two bars with the interface's springs.
+SpringTheory theory(const BarCase& b) {
   const double z = std::sqrt(b.young * b.density) * b.side * b.side;
   const double period = 2.0 * b.length / std::sqrt(b.young / b.density);
   const double a = 2.0 * total_stiffness(b) / z;
@@ -62,13 +75,17 @@ double parting_time(const BarCase& b) {
     const double mid = 0.5 * (low + high);
     ((2.0 * a * mid + 2.0 - std::exp(-a * period)) * std::exp(-a * mid) > 1.0 ? low : high) = mid;
   }
-  return period + low;
+  // Integral of F: Z v0 [T - (1 - exp(-a T))/a + (-u + 4 - (2 u + 4) e^-u - exp(-a T) (1 - e^-u))/a], u = a s.
+  const double u = a * low;
+  const double q = std::exp(-a * period);
+  const double rest = -u + 4.0 - (2.0 * u + 4.0) * std::exp(-u) - q * (1.0 - std::exp(-u));
+  return {period + low, z * b.v * (period + (rest - (1.0 - q)) / a)};
 }
 
 Impact two_bars(const BarCase& b, abut::Profile profile = {}) {
   Scene scene("bars");
   const auto material = scene.elastic(b.density, b.young, 0.0);
-  const auto property = scene.solid_property();
+  const auto property = b.linear ? scene.linear_solid_property() : scene.solid_property();
   const auto p1 = scene.part(property, material);
   const auto p2 = scene.part(property, material);
   const auto first = scene.block(p1, {0, 0, 0}, {b.side, b.side, b.length}, {b.across, b.across, b.cells});
@@ -86,17 +103,24 @@ Impact two_bars(const BarCase& b, abut::Profile profile = {}) {
   Impact out;
   out.momentum_first = recorder.samples.front().balance.momentum;
   out.momentum_last = recorder.samples.back().balance.momentum;
+  double plateau = 0.0;
+  double plateau_time = 0.0;
   for (const auto& sample : recorder.samples) {
     const auto& contact = sample.interfaces[0];
     const bool touching = contact.in_contact > 0;
     if (touching && out.start < 0.0) out.start = sample.time;
     if (touching) out.end = sample.time;
+    if (sample.time >= 8.0 && sample.time <= 16.0) {
+      plateau += sample.dt * std::abs(contact.normal_force.z);
+      plateau_time += sample.dt;
+    }
     out.peak = std::max(out.peak, std::abs(contact.normal_force.z));
     out.impulse = std::abs(contact.normal_impulse.z);
     double& worst = touching ? out.worst_error_contact : out.worst_error_free;
     worst = std::max(worst, std::abs(sample.balance.err));
     out.made = std::abs(sample.balance.cx) / sample.balance.largest;
   }
+  out.plateau = plateau / plateau_time;
   double mass = 0.0;
   for (const auto n : first.nodes) {
     const auto i = static_cast<std::size_t>(n);
@@ -107,12 +131,27 @@ Impact two_bars(const BarCase& b, abut::Profile profile = {}) {
   return out;
 }
 
-// T13, T17: series stiffness of brick faces decides when penalty-coupled bars part.
+void print(const char* what, const BarCase& b, const Impact& r) {
+  std::printf("[found] %s: s %.3g, gap %.3g, %d x %d x %d per bar: contact %.4f (spring theory %.4f), impulse %.5f (%.5f)\n", what, b.s, b.gap,
+              b.across, b.across, b.cells, r.end - r.start, theory(b).parting, r.impulse, theory(b).impulse);
+}
+
+// T13, T17; 6.1: series stiffness of brick faces decides when penalty-coupled bars part.
 TEST(Bars, PartWhenTheSpringTheorySays) {
   const BarCase b;
   const Impact r = two_bars(b);
-  const double expected = parting_time(b);
-  EXPECT_NEAR(r.end - r.start, expected, 0.01 * expected);
+  print("two bars", b, r);
+  EXPECT_NEAR(r.end - r.start, theory(b).parting, 0.01 * theory(b).parting);
+  EXPECT_NEAR(r.impulse, theory(b).impulse, 0.01 * theory(b).impulse);
+  BarCase solid;
+  solid.cells = 40;
+  solid.across = 2;
+  solid.linear = false;
+  solid.v = 0.01;
+  const Impact thick = two_bars(solid);
+  print("two bars, large strain", solid, thick);
+  EXPECT_NEAR(thick.end - thick.start, theory(solid).parting, 0.01 * theory(solid).parting);
+  EXPECT_NEAR(thick.impulse, theory(solid).impulse, 0.01 * theory(solid).impulse);
 }
 
 TEST(Bars, ApproachIdealContactAsStiffnessGrows) {
@@ -120,8 +159,10 @@ TEST(Bars, ApproachIdealContactAsStiffnessGrows) {
   for (const double s : {0.1, 0.2, 0.4, 0.8}) {
     BarCase b;
     b.s = s;
+    b.cells = 160;
     const Impact r = two_bars(b);
-    EXPECT_NEAR(r.end - r.start, parting_time(b), 0.01 * parting_time(b)) << "s = " << s;
+    print("stiffer", b, r);
+    EXPECT_NEAR(r.end - r.start, theory(b).parting, 0.01 * theory(b).parting) << "s = " << s;
     const double off = r.end - r.start - 20.0;
     EXPECT_GT(off, 0.0);
     EXPECT_LT(off, previous);
@@ -131,21 +172,47 @@ TEST(Bars, ApproachIdealContactAsStiffnessGrows) {
 
 TEST(Bars, ApproachIdealContactAsTheMeshRefines) {
   double previous = 1e30;
-  for (const int cells : {20, 40, 80}) {
+  double previous_impulse = 1e30;
+  for (const int cells : {20, 40, 80, 160}) {
     BarCase b;
     b.cells = cells;
     const Impact r = two_bars(b);
-    EXPECT_NEAR(r.end - r.start, parting_time(b), 0.01 * parting_time(b)) << cells << " elements";
+    print("finer", b, r);
+    if (cells >= 80) { EXPECT_NEAR(r.end - r.start, theory(b).parting, 0.01 * theory(b).parting) << cells << " elements"; }
     const double off = r.end - r.start - 20.0;
     EXPECT_LT(off, previous);
+    EXPECT_LT(std::abs(r.impulse - 2.0), previous_impulse);
     previous = off;
+    previous_impulse = std::abs(r.impulse - 2.0);
   }
 }
 
+// The spring itself kept (s n constant) while the mesh refines: what is left over is the mesh alone.
+TEST(Bars, ConvergeToTheSpringTheoryWithTheSpringKept) {
+  double previous = 1e30;
+  for (const int cells : {20, 40, 80, 160}) {
+    BarCase b;
+    b.cells = cells;
+    b.s = 0.2 * 40 / cells;
+    const Impact r = two_bars(b);
+    print("spring kept", b, r);
+    const double off = std::abs(r.end - r.start - theory(b).parting);
+    EXPECT_LT(off, previous) << cells << " elements";
+    previous = off;
+  }
+  EXPECT_LT(previous, 0.005 * 21.97);
+}
+
+// 6.1: ideal bars exchange their velocities; with springs the rest of the energy rings in the bars.
 TEST(Bars, ExchangeVelocities) {
-  const Impact r = two_bars({});
+  BarCase b;
+  b.cells = 160;
+  const Impact r = two_bars(b);
+  print("exchange", b, r);
+  std::printf("[found] exchange: exit speed %.5f (-0.1), force plateau %.5f (0.1)\n", r.exit_speed, r.plateau);
   EXPECT_NEAR(r.exit_speed, -0.1, 0.01 * 0.1);
   EXPECT_NEAR(r.impulse, 2.0 * 10.0 * 0.1, 0.01 * 2.0);
+  EXPECT_NEAR(r.plateau, 0.1, 0.01 * 0.1);
 }
 
 // 6.5: linear momentum of a free impact.

@@ -1,0 +1,325 @@
+// The step of the assembled system against its exact limit (issue: run a real deck, 4, "effect on the time step"; T12, numerics.md 2.3).
+//
+// Exact: 2/omega_max of M^-1 K, K the tangent of all forces (elements and both passes of every interface) by central
+// differences at the first geometry, contact active; clamped directions left out, rigid bodies reduced to their six degrees.
+// Elements are hypoelastic: a displacement du is applied as the velocity du/h over a step h so long that viscous terms vanish.
+// abut's step is the one that a run takes there with a scale factor of 1.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "constraints/axes.hpp"
+#include "constraints/boundary_conditions.hpp"
+#include "constraints/rigid_bodies.hpp"
+#include "init/contact_setup.hpp"
+#include "init/start.hpp"
+#include "support/recorder.hpp"
+#include "support/scene.hpp"
+
+namespace {
+
+using abut::Index;
+using abut::Vec3;
+using abut::scenes::Recorder;
+using abut::scenes::Scene;
+namespace model = abut::model;
+
+/// All forces of a model as a function of a small displacement from its first geometry.
+class Forces {
+ public:
+  explicit Forces(const model::Model& m)
+      : model_(m),
+        groups_(abut::init::make_groups(m, {})),
+        assembly_(m.node_count(), m, groups_),
+        state(abut::init::make_state(m, groups_, assembly_)),
+        axes_(m),
+        bodies(m),
+        conditions(m, axes_, bodies),
+        slots_(assembly_.slot_count(), 0.0) {
+    bodies.initialise(state);
+    interfaces_ = abut::init::make_interfaces(m, {}, {}, state);
+    for (const auto& g : groups_) {
+      std::vector<std::uint8_t> rigid;
+      for (Index e = 0; e < g->size(); ++e) rigid.push_back(bodies.contains(g->nodes(e)) ? 1 : 0);
+      g->set_rigid(rigid);
+    }
+    // One step at rest: the first step of a run has no strain and no history.
+    zero_ = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(state.mass.size()));
+    (void)at(zero_, false);
+    for (auto& i : interfaces_) {
+      abut::contact::HostState host{state.x, state.v, state.mass, 0.0, tiny_step, tiny_step};
+      std::vector<Vec3> f(state.x.size());
+      std::vector<double> k(state.x.size());
+      i.contact.search(host);
+      touching += i.contact.evaluate(host, f, k).in_contact;
+      i.contact.commit(tiny_step);
+      blobs_.push_back(i.contact.history());
+    }
+  }
+
+  /// Forces and moments (6 per node) after the displacements and rotations d.
+  Eigen::VectorXd at(const Eigen::VectorXd& d, bool with_contact = true) {
+    const std::size_t n = state.x.size();
+    std::vector<Vec3> x(n), v(n), w(n), f(n), m(n), contact(n);
+    std::vector<double> k(n), kr(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto at = 6 * static_cast<Eigen::Index>(i);
+      const Vec3 u{d[at], d[at + 1], d[at + 2]};
+      x[i] = state.x[i] + u;
+      v[i] = u / slow_step;
+      w[i] = Vec3{d[at + 3], d[at + 4], d[at + 5]} / slow_step;
+    }
+    std::vector<std::vector<double>> saved;
+    for (const auto& g : groups_) {
+      for (const auto span : g->history()) saved.emplace_back(span.begin(), span.end());
+      (void)g->step({x.data(), v.data(), w.data(), slow_step, slow_step}, slots_, pool_);
+    }
+    std::size_t s = 0;
+    for (const auto& g : groups_) {
+      for (const auto span : g->history()) {
+        std::copy(saved[s].begin(), saved[s].end(), span.begin());
+        ++s;
+      }
+    }
+    assembly_.sum(slots_, {f, m, k, kr}, pool_);
+    if (with_contact) {
+      const std::vector<Vec3> rest(n);
+      for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+        interfaces_[i].contact.restore(blobs_[i]);
+        const abut::contact::HostState host{x, rest, state.mass, tiny_step, tiny_step, tiny_step};
+        interfaces_[i].contact.search(host);
+        (void)interfaces_[i].contact.evaluate(host, contact, k);
+      }
+    }
+    Eigen::VectorXd out(d.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        out[6 * static_cast<Eigen::Index>(i) + c] = contact[i][c] - f[i][c];
+        out[6 * static_cast<Eigen::Index>(i) + 3 + c] = -m[i][c];
+      }
+    }
+    return out;
+  }
+
+  static constexpr double slow_step = 1e6, tiny_step = 1e-12;
+
+ private:
+  const model::Model& model_;
+  std::vector<std::unique_ptr<abut::elements::Group>> groups_;
+  abut::elements::Assembly assembly_;
+  abut::parallel::ThreadPool pool_{1};
+
+ public:
+  abut::state::State state;
+
+ private:
+  abut::constraints::Axes axes_;
+
+ public:
+  abut::constraints::RigidBodies bodies;
+  abut::constraints::BoundaryConditions conditions;
+  Index touching = 0;
+
+ private:
+  std::vector<double> slots_;
+  std::vector<abut::init::RunInterface> interfaces_;
+  std::vector<std::vector<std::byte>> blobs_;
+  Eigen::VectorXd zero_;
+};
+
+/// 2/omega_max of the model at its first geometry. @param delta  displacement of the differences
+double exact_limit(const model::Model& m, double delta, Index& touching) {
+  Forces forces(m);
+  touching = forces.touching;
+  const auto n = static_cast<Eigen::Index>(forces.state.mass.size());
+  // Columns of free motions.
+  std::vector<Eigen::VectorXd> motions;
+  std::vector<Eigen::VectorXd> momenta;  // M times the motion
+  for (Index node = 0; node < m.node_count(); ++node) {
+    const auto i = static_cast<std::size_t>(node);
+    const bool body = forces.bodies.main_of(node) != abut::no_index;
+    if (forces.bodies.body_of(node) != abut::no_index) continue;
+    for (int c = 0; c < 6; ++c) {
+      if (forces.conditions.fixed(node, c)) continue;
+      const double mass = c < 3 ? forces.state.mass[i] : forces.state.inertia[i];
+      if (mass <= 0.0) continue;
+      Eigen::VectorXd u = Eigen::VectorXd::Zero(6 * n);
+      u[6 * node + c] = 1.0;
+      Eigen::VectorXd p = u * mass;
+      if (body) {
+        const Index b = forces.bodies.main_of(node);
+        Vec3 unit;
+        unit[c % 3] = 1.0;
+        if (c >= 3) {
+          const Vec3 j = forces.bodies.times_inertia(b, unit);
+          for (int k = 0; k < 3; ++k) p[6 * node + 3 + k] = j[k];
+        }
+        for (const Index s : m.rigid_bodies[static_cast<std::size_t>(b)].nodes) {
+          const Vec3 arm = forces.state.x[static_cast<std::size_t>(s)] - forces.state.x[i];
+          const Vec3 moved = c < 3 ? unit : cross(unit, arm);
+          for (int k = 0; k < 3; ++k) u[6 * s + k] = moved[k];
+          if (c >= 3) u[6 * s + c] = 1.0;
+        }
+      }
+      motions.push_back(u);
+      momenta.push_back(p);
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(motions.size());
+  Eigen::MatrixXd stiffness(size, size);
+  Eigen::MatrixXd mass(size, size);
+  for (Eigen::Index c = 0; c < size; ++c) {
+    const auto column = static_cast<std::size_t>(c);
+    const Eigen::VectorXd f = (forces.at(delta * motions[column]) - forces.at(-delta * motions[column])) / (2.0 * delta);
+    for (Eigen::Index r = 0; r < size; ++r) {
+      stiffness(r, c) = -motions[static_cast<std::size_t>(r)].dot(f);
+      // A body's momentum is written at its main node, where its motions are one at one place.
+      mass(r, c) = 0.0;
+    }
+  }
+  for (Eigen::Index c = 0; c < size; ++c) {
+    const Eigen::VectorXd& p = momenta[static_cast<std::size_t>(c)];
+    for (Eigen::Index r = 0; r < size; ++r) {
+      // Only the main node's (or the free node's) own entries of the test motion carry mass.
+      double sum = 0.0;
+      const Eigen::VectorXd& q = momenta[static_cast<std::size_t>(r)];
+      for (Eigen::Index k = 0; k < 6 * n; ++k) {
+        if (p[k] != 0.0 && q[k] != 0.0) sum += p[k] * motions[static_cast<std::size_t>(r)][k];
+      }
+      mass(r, c) = sum;
+    }
+  }
+  const Eigen::VectorXcd values = mass.fullPivLu().solve(stiffness).eigenvalues();
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < values.size(); ++i) largest = std::max(largest, std::abs(values[i]));
+  return 2.0 / std::sqrt(largest);
+}
+
+void check(const char* name, Scene& scene, double delta) {
+  scene.end(1.0, 0.0, 1.0);
+  Recorder recorder;
+  // A few cycles are enough: the geometry is still the first one.
+  scene.model.controls.t_end = 1e-12;
+  const auto report = abut::cycle::run(scene.model, {}, recorder);
+  ASSERT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished) << report.outcome.message;
+  const double first = recorder.samples.front().dt;
+  scene.model.controls.t_end = 1.5 * first;
+  Recorder longer;
+  (void)abut::cycle::run(scene.model, {}, longer);
+  ASSERT_GE(longer.samples.size(), 2U);
+  Index touching = 0;
+  const double exact = exact_limit(scene.model, delta, touching);
+  const double step = longer.samples[1].dt;
+  std::printf("[found] step, %s: %d nodes in contact, step %.4e (first cycle %.4e), exact limit %.4e, ratio %.3f (%.3f)\n", name,
+              static_cast<int>(touching), step, first, exact, step / exact, first / exact);
+  EXPECT_GT(touching, 0);
+  EXPECT_LE(step, exact);
+  EXPECT_LE(first, exact);
+  EXPECT_GE(step, 0.7 * exact);
+}
+
+constexpr double young = 210e9, density = 7800.0;
+
+/// A little disorder, the same for every run.
+Vec3 disturbed(const Vec3& p, double size) {
+  return p + size * Vec3{std::sin(31.0 * p.x + 57.0 * p.y / (1 + p.z * p.z)), std::sin(43.0 * p.y + 71.0 * p.x), 0.0};
+}
+
+TEST(Step, ShellOnShell) {
+  Scene s("step");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto property = s.shell_property(0.001);
+  const auto a = s.part(property, material);
+  const auto b = s.part(property, material);
+  s.shells(a, 4, 4, [](double u, double v) { return disturbed({0.04 * u, 0.04 * v, 0}, 5e-4); });
+  s.shells(b, 3, 3, [](double u, double v) { return disturbed({0.004 + 0.03 * u, 0.005 + 0.03 * v, 0.0004}, 5e-4); }, true);
+  s.contact(s.shell_surface(a), s.shell_surface(b), 0.2, 0.0, 0.0005);
+  check("shell on shell, gap 0.5 mm, s 0.2", s, 1e-9);
+}
+
+TEST(Step, ShellOnShellStiff) {
+  Scene s("step");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto property = s.shell_property(0.001);
+  const auto a = s.part(property, material);
+  const auto b = s.part(property, material);
+  s.shells(a, 4, 4, [](double u, double v) { return disturbed({0.04 * u, 0.04 * v, 0}, 5e-4); });
+  s.shells(b, 3, 3, [](double u, double v) { return disturbed({0.004 + 0.03 * u, 0.005 + 0.03 * v, 0.0002}, 5e-4); }, true);
+  s.contact(s.shell_surface(a), s.shell_surface(b), 1.0, 0.2, 0.0005);
+  check("shell on shell, gap 0.5 mm, s 1, deep, friction", s, 1e-9);
+}
+
+TEST(Step, BrickOnBrick) {
+  Scene s("step");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto property = s.solid_property();
+  const auto lower = s.block(s.part(property, material), {0, 0, -0.02}, {0.03, 0.03, 0.02}, {3, 3, 2},
+                             [](const Vec3& p) { return disturbed(p, 3e-4); });
+  const auto upper = s.block(s.part(property, material), {0.004, 0.005, -1e-5}, {0.02, 0.02, 0.02}, {2, 2, 2},
+                             [](const Vec3& p) { return disturbed(p, 3e-4); });
+  s.contact(s.surface(lower, 2, true), s.surface(upper, 2, false));
+  check("brick on brick, gap 0, s 0.2", s, 1e-9);
+}
+
+TEST(Step, BrickOnShell) {
+  Scene s("step");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto shell = s.part(s.shell_property(0.002), material);
+  s.shells(shell, 4, 4, [](double u, double v) { return disturbed({0.04 * u, 0.04 * v, 0}, 5e-4); });
+  const auto block = s.block(s.part(s.solid_property(), material), {0.008, 0.009, -1e-5}, {0.02, 0.02, 0.02}, {2, 2, 2},
+                             [](const Vec3& p) { return disturbed(p, 3e-4); });
+  s.contact(s.shell_surface(shell), s.surface(block, 2, false));
+  check("brick on shell, gap 0, s 0.2", s, 1e-9);
+}
+
+TEST(Step, TwoInterfacesShareNodes) {
+  Scene s("step");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto shell = s.part(s.shell_property(0.002), material);
+  s.shells(shell, 3, 3, [](double u, double v) { return disturbed({0.03 * u, 0.03 * v, 0}, 5e-4); });
+  const auto up = s.shell_surface(shell);
+  const auto down = s.shell_surface(shell);
+  for (auto& segment : s.model.surfaces[static_cast<std::size_t>(down)].segments) std::swap(segment.nodes[1], segment.nodes[3]);
+  const auto solid = s.solid_property();
+  const auto above = s.block(s.part(solid, material), {0.004, 0.005, -1e-5}, {0.02, 0.02, 0.01}, {2, 2, 1});
+  const auto below = s.block(s.part(solid, material), {0.006, 0.003, 1e-5 - 0.01}, {0.02, 0.02, 0.01}, {2, 2, 1});
+  s.contact(up, s.surface(above, 2, false));
+  s.contact(down, s.surface(below, 2, true));
+  check("shell between bricks, two interfaces on its nodes, s 0.2", s, 1e-9);
+}
+
+TEST(Step, OnAClampedBlock) {
+  Scene s("step");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto property = s.solid_property();
+  const auto lower = s.block(s.part(property, material), {0, 0, -0.01}, {0.03, 0.03, 0.01}, {3, 3, 1});
+  const auto upper = s.block(s.part(property, material), {0.004, 0.005, -1e-5}, {0.02, 0.02, 0.02}, {2, 2, 2},
+                             [](const Vec3& p) { return disturbed(p, 3e-4); });
+  s.fix(lower.nodes, {true, true, true});
+  s.contact(s.surface(lower, 2, true), s.surface(upper, 2, false));
+  check("brick on a clamped block, gap 0, s 0.2", s, 1e-9);
+}
+
+TEST(Step, RigidBodyOnAShell) {
+  Scene s("step");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto shell = s.part(s.shell_property(0.002), material);
+  s.shells(shell, 4, 4, [](double u, double v) { return disturbed({0.04 * u, 0.04 * v, 0}, 5e-4); });
+  const auto block = s.block(s.part(s.solid_property(), material), {0.008, 0.009, -1e-5}, {0.02, 0.02, 0.01}, {2, 2, 1});
+  model::RigidBody body;
+  body.id = 1;
+  body.main = block.nodes.front();
+  body.nodes.assign(block.nodes.begin() + 1, block.nodes.end());
+  s.model.node_id.push_back(static_cast<abut::Id>(s.model.node_id.size()) + 1);
+  s.model.node_x.push_back({0.018, 0.019, 0.005});
+  body.main = static_cast<Index>(s.model.node_id.size()) - 1;
+  body.nodes = block.nodes;
+  s.model.rigid_bodies.push_back(body);
+  s.contact(s.shell_surface(shell), s.surface(block, 2, false));
+  check("rigid body on a shell, gap 0, s 0.2", s, 1e-9);
+}
+
+}  // namespace
