@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,6 +25,10 @@
 namespace abut::contact {
 
 class InterfaceModel;  // internal
+
+/// Runs body(begin, end) on disjoint ranges that cover [0, count), on any threads and in any order; returns when all are done and
+/// hands on what a body throws. The results of an interface do not depend on how the ranges are cut.
+using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body)>;
 
 /// What changes about a surface: spans of #F values, copied when set.
 struct SurfaceState {
@@ -66,6 +71,9 @@ class Interface {
   /// Spans that are empty leave what was set before. May be called at any time.
   /// @throws std::invalid_argument on a wrong length, a negative or non-finite stiffness
   void set_surface(int side, const SurfaceState& state);
+
+  /// Loops over nodes run through `executor` from now on; without one they run in the caller.
+  void set_executor(Executor executor);
 
   /// Once per step, before evaluate, with the same positions.
   void search(const HostState& host);

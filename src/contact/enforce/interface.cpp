@@ -24,6 +24,7 @@ Interface Interface::both_sides(std::vector<Index> nodes, Surface surface, const
 }
 
 void Interface::set_surface(int side, const SurfaceState& state) { model_->set_surface(side, state); }
+void Interface::set_executor(Executor executor) { model_->set_executor(std::move(executor)); }
 void Interface::search(const HostState& host) { model_->search(host); }
 StepResult Interface::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   return model_->evaluate(host, force, stiffness);
