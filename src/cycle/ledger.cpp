@@ -4,38 +4,65 @@
 
 namespace abut::cycle {
 
-KineticSums& KineticSums::operator+=(const KineticSums& b) {
-  translation += b.translation;
-  rotation += b.rotation;
-  mass += b.mass;
-  momentum += b.momentum;
+Ledger::Leaf& Ledger::Leaf::operator+=(const Leaf& b) {
+  kinetic.translation += b.kinetic.translation;
+  kinetic.rotation += b.kinetic.rotation;
+  kinetic.mass += b.kinetic.mass;
+  kinetic.momentum += b.kinetic.momentum;
+  kinetic.leapfrog += b.kinetic.leapfrog;
+  internal_before += b.internal_before;
+  internal_after += b.internal_after;
+  contact_before += b.contact_before;
+  contact_after += b.contact_after;
   return *this;
 }
 
-KineticSums Ledger::kinetic(const state::State& s, bool product_form, parallel::ThreadPool& pool) {
+KineticSums Ledger::sum(const state::State& s, bool product_form, parallel::ThreadPool& pool) {
   const double half = 0.5 * s.times.h_minus;
   const double h = s.times.h_bar;
   // Cycle 0 kicks by half a step from v(0): its leap-frog neighbours are v(0) -+ h~ a, and their product is v.v - (h~ a)^2.
   const double back = s.times.cycle == 0 ? h : 0.0;
-  return parallel::ordered_sum(s.mass.size(), leaves_, pool, [&](std::size_t begin, std::size_t end) {
-    KineticSums sum;
+  const Leaf all = parallel::ordered_sum(s.mass.size(), leaves_, pool, [&](std::size_t begin, std::size_t end) {
+    Leaf sum;
+    KineticSums& k = sum.kinetic;
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 v = s.v[i] + half * s.a[i];
-      const Vec3 w = s.w[i] + half * s.alpha[i];
-      const double vv = product_form ? dot(s.v[i] - back * s.a[i], s.v[i] + h * s.a[i]) : squared_norm(v);
-      const double ww = product_form ? dot(s.w[i] - back * s.alpha[i], s.w[i] + h * s.alpha[i]) : squared_norm(w);
-      sum.translation += 0.5 * s.mass[i] * vv;
-      sum.rotation += 0.5 * s.inertia[i] * ww;
-      sum.mass += s.mass[i];
-      sum.momentum += s.mass[i] * v;
+      const Vec3 before = s.v[i], a = s.a[i];
+      const Vec3 after = before + h * a;
+      const Vec3 now = before + half * a;
+      const double m = s.mass[i];
+      const double star = dot(before, after);
+      const double vv = !product_form ? squared_norm(now) : back == 0.0 ? star : dot(before - back * a, after);
+      k.translation += 0.5 * m * vv;
+      k.leapfrog += 0.5 * m * star;
+      k.mass += m;
+      k.momentum += m * now;
+      sum.internal_before += dot(s.f_internal[i], before);
+      sum.internal_after += dot(s.f_internal[i], after);
+      sum.contact_before += dot(s.f_contact[i], before);
+      sum.contact_after += dot(s.f_contact[i], after);
+    }
+    if (!rotations_) return sum;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 before = s.w[i], alpha = s.alpha[i];
+      const Vec3 after = before + h * alpha;
+      const double j = s.inertia[i];
+      const double star = dot(before, after);
+      const double ww = !product_form ? squared_norm(before + half * alpha) : back == 0.0 ? star : dot(before - back * alpha, after);
+      k.rotation += 0.5 * j * ww;
+      k.leapfrog += 0.5 * j * star;
+      sum.internal_before += dot(s.m_internal[i], before);
+      sum.internal_after += dot(s.m_internal[i], after);
     }
     return sum;
   });
+  // Internal forces are subtracted from the nodes: their work carries a minus sign.
+  booked_ = 0.5 * h * (all.contact_before - all.internal_before) + second_half_;
+  second_half_ = 0.5 * h * (all.contact_after - all.internal_after);
+  return all.kinetic;
 }
 
-double Ledger::close(const state::State& s, double kinetic, double constraint_work) {
-  // Internal forces are subtracted from the nodes: their work carries a minus sign.
-  works_ += constraint_work - elements_.settle(s, s.f_internal, s.m_internal) + contact_.settle(s, s.f_contact);
+double Ledger::close(double kinetic, double constraint_work) {
+  works_ += constraint_work + booked_;
   return kinetic - start_ - works_;
 }
 
