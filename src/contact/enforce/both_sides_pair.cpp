@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/enforce/law.hpp"
+
 namespace abut::contact {
 
 namespace {
@@ -105,7 +107,7 @@ BothSidesForce both_sides_force(double k0, double gap, double p, double mass, do
   const double ratio = gap / left;
   BothSidesForce f;
   f.elastic = k0 * ratio * p;
-  f.energy = k0 * gap * gap * (-p / gap - std::log1p(-p / gap));
+  f.energy = k0 * gap * gap * NormalLaw::minus_u_minus_log(p / gap);
   f.tangent = k0 * ratio * ratio;
   const double closing = std::max(0.0, -normal_velocity);
   f.critical = std::sqrt(2.0 * k0 * ratio * mass * (closing > 0.0 ? ratio : 1.0));

@@ -43,8 +43,7 @@ struct NormalLaw {
     return gap * gap * (minus_u_minus_log(bend) + over * (bend / (1.0 - bend) + 0.5 * over * slope));
   }
 
- private:
-  // -u - ln(1 - u) for 0 <= u <= 0.9, to about 4e-16 relative.
+  /// -u - ln(1 - u) for 0 <= u < 1, to about 4e-16 relative.
   [[nodiscard]] static constexpr double minus_u_minus_log(double u) {
     if (u < 0.125) {  // the series itself: the difference would cancel
       double sum = 0.0;
