@@ -74,17 +74,17 @@ void Cycle::book_interfaces() {
 
 void Cycle::close_balance() {
   state::Balance& b = balance_;
-  const double external = loads_.ledger_work(state_) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
+  const bool product_form = options_.profile.kinetic_energy == Profile::KineticEnergy::leapfrog;
+  const KineticSums kinetic = ledger_.sum(state_, product_form, pool_);
+  const double external = (loaded_ ? loads_.ledger_work(state_) : 0.0) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
                           imposed_.ledger_work(state_) + walls_.ledger_work(state_);
   b.extw += options_.profile.external_work == Profile::ExternalWork::discrete ? external : booked_work_;
   const double constraint_work = external + bodies_.ledger_work(state_);
-  const double t_star = constraints::ledger_kinetic_energy(state_) + bodies_.ledger_correction(state_);
-  const double ledger = ledger_.close(state_, t_star, constraint_work);
-  const bool product_form = options_.profile.kinetic_energy == Profile::KineticEnergy::leapfrog;
-  const KineticSums kinetic = ledger_.kinetic(state_, product_form, pool_);
+  const double t_star = kinetic.leapfrog + bodies_.ledger_correction(state_);
+  const double ledger = ledger_.close(t_star, constraint_work);
   const constraints::EnergyCorrection body = bodies_.energy_correction(state_);
   b.ker = kinetic.rotation + body.rotation;
-  // T* of the ledger knows how rigid bodies move between half-steps; in cycle 0 it is one-sided (Ledger::kinetic is not).
+  // T* of the ledger knows how rigid bodies move between half-steps; in cycle 0 it is one-sided (translation and rotation are not).
   b.ke = product_form && state_.times.cycle > 0 ? t_star - b.ker : kinetic.translation + body.translation;
   b.momentum = kinetic.momentum + body.momentum;
   b.mass = kinetic.mass + body.mass;

@@ -5,6 +5,10 @@
 
 namespace abut::cycle {
 
+namespace {
+constexpr std::size_t node_grain = 1024;  // nodes that make a loop worth a thread
+}
+
 /// Adds the wall-clock time of a scope to a phase.
 class Cycle::Timer {
  public:
@@ -23,12 +27,11 @@ void Cycle::advance(Sink& sink) {
   StepLimits limits;
   decide_outputs();
   switch_off_rigid_elements();
-  axes_.update(state_);     //  1
-  clear_forces();           //  2
-  loads_.apply(state_);     //  3
-  internal_forces(limits);  //  5, 8, 10
-  contact_forces(limits);   //  4, 6, 7
-  total_forces();
+  axes_.update(state_);               //  1
+  if (loaded_) loads_.apply(state_);  //  3
+  internal_forces(limits);            //  5, 8
+  contact_forces(limits);             //  2, 4, 6, 7
+  assemble();                         //  10
   {
     const Timer timer(*this, p_constraints);
     sections_.gather(state_, slots_);  // 11
@@ -71,50 +74,39 @@ void Cycle::decide_outputs() {
   listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
 }
 
-void Cycle::clear_forces() {
-  std::fill(state_.f_external.begin(), state_.f_external.end(), Vec3{});
-  std::fill(state_.m_external.begin(), state_.m_external.end(), Vec3{});
-  std::fill(state_.f_contact.begin(), state_.f_contact.end(), Vec3{});
-  std::fill(contact_stiffness_.begin(), contact_stiffness_.end(), 0.0);
-}
-
 void Cycle::internal_forces(StepLimits& limits) {
-  {
-    const Timer timer(*this, p_elements);
-    const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus};
-    for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
-    removed_energy_ = 0.0;
-    for (const std::unique_ptr<elements::Group>& g : groups_) {
-      const elements::GroupResult r = g->step(in, slots_, pool_);
-      if (r.bad_element != no_index) {
-        throw RunError("element " + std::to_string(element_id(*g, r.bad_element)) + " of part " +
-                       std::to_string(model_.parts[static_cast<std::size_t>(g->part())].id) +
-                       " has a non-finite result or a negative volume at cycle " + std::to_string(state_.times.cycle));
-      }
-      PartResult& part = parts_[static_cast<std::size_t>(g->part())];
-      part.ie += r.internal_energy;
-      part.he += r.hourglass_energy;
-      part.eroded += r.removed;
-      removed_energy_ += r.removed_energy;
-      if (r.removed > 0) eroded_ = true;
-      check_minimum_step(*g, r);
-      if (history_due_) {
-        const elements::PartSums sums = g->part_sums(state_.v, state_.w);
-        part.sums.kinetic_energy += sums.kinetic_energy;
-        part.sums.rotational_energy += sums.rotational_energy;
-        part.sums.mass += sums.mass;
-        part.sums.momentum += sums.momentum;
-      }
-      if (r.step < limits.element) {
-        using Kind = StepController::Kind;
-        static constexpr Kind kinds[] = {Kind::none, Kind::shell, Kind::sh3n, Kind::brick, Kind::tetra};
-        limits.element = r.step;
-        limits.element_controller = {kinds[static_cast<int>(g->kind())], element_id(*g, r.step_element)};
-      }
+  const Timer timer(*this, p_elements);
+  const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus};
+  for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
+  removed_energy_ = 0.0;
+  for (const std::unique_ptr<elements::Group>& g : groups_) {
+    const elements::GroupResult r = g->step(in, slots_, pool_);
+    if (r.bad_element != no_index) {
+      throw RunError("element " + std::to_string(element_id(*g, r.bad_element)) + " of part " +
+                     std::to_string(model_.parts[static_cast<std::size_t>(g->part())].id) +
+                     " has a non-finite result or a negative volume at cycle " + std::to_string(state_.times.cycle));
+    }
+    PartResult& part = parts_[static_cast<std::size_t>(g->part())];
+    part.ie += r.internal_energy;
+    part.he += r.hourglass_energy;
+    part.eroded += r.removed;
+    removed_energy_ += r.removed_energy;
+    if (r.removed > 0) eroded_ = true;
+    check_minimum_step(*g, r);
+    if (history_due_) {
+      const elements::PartSums sums = g->part_sums(state_.v, state_.w);
+      part.sums.kinetic_energy += sums.kinetic_energy;
+      part.sums.rotational_energy += sums.rotational_energy;
+      part.sums.mass += sums.mass;
+      part.sums.momentum += sums.momentum;
+    }
+    if (r.step < limits.element) {
+      using Kind = StepController::Kind;
+      static constexpr Kind kinds[] = {Kind::none, Kind::shell, Kind::sh3n, Kind::brick, Kind::tetra};
+      limits.element = r.step;
+      limits.element_controller = {kinds[static_cast<int>(g->kind())], element_id(*g, r.step_element)};
     }
   }
-  const Timer timer(*this, p_assembly);
-  assembly_.sum(slots_, {state_.f_internal, state_.m_internal, state_.stiffness, state_.rotational_stiffness}, pool_);
 }
 
 void Cycle::contact_forces(StepLimits& limits) {
@@ -126,6 +118,9 @@ void Cycle::contact_forces(StepLimits& limits) {
     for (init::RunInterface& i : interfaces_) i.contact.search(host);
   }
   const Timer timer(*this, p_contact);
+  if (interfaces_.empty()) return;
+  std::fill(state_.f_contact.begin(), state_.f_contact.end(), Vec3{});
+  std::fill(contact_stiffness_.begin(), contact_stiffness_.end(), 0.0);
   for (init::RunInterface& i : interfaces_) {
     const contact::StepResult r = i.contact.evaluate(host, state_.f_contact, contact_stiffness_);
     InterfaceResult& out = interface_results_[static_cast<std::size_t>(i.model_index)];
@@ -146,21 +141,28 @@ void Cycle::contact_forces(StepLimits& limits) {
   if (releases_) release_boundary_conditions();
 }
 
-void Cycle::total_forces() {
-  pool_.for_ranges(state_.mass.size(), 2048, [this](std::size_t begin, std::size_t end) {
+void Cycle::assemble() {
+  const Timer timer(*this, p_assembly);
+  const double* slots = slots_.data();
+  pool_.for_ranges(state_.mass.size(), node_grain, [this, slots](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      state_.f[i] = state_.f_external[i] - state_.f_internal[i] + state_.f_contact[i];
-      state_.m[i] = state_.m_external[i] - state_.m_internal[i];
-      state_.stiffness[i] += contact_stiffness_[i];
+      const elements::NodalSum n = assembly_.sum(slots, i);
+      state_.f_internal[i] = n.force;
+      state_.f[i] = state_.f_external[i] - n.force + state_.f_contact[i];
+      state_.stiffness[i] = n.stiffness + contact_stiffness_[i];
+      if (!rotations_) continue;
+      state_.m_internal[i] = n.moment;
+      state_.m[i] = state_.m_external[i] - n.moment;
+      state_.rotational_stiffness[i] = n.rotational_stiffness;
     }
   });
 }
 
 void Cycle::accelerate() {
-  pool_.for_ranges(state_.mass.size(), 2048, [this](std::size_t begin, std::size_t end) {
+  pool_.for_ranges(state_.mass.size(), node_grain, [this](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       state_.a[i] = state_.mass[i] > 0.0 ? state_.f[i] / state_.mass[i] : Vec3{};
-      state_.alpha[i] = state_.inertia[i] > 0.0 ? state_.m[i] / state_.inertia[i] : Vec3{};
+      if (rotations_) state_.alpha[i] = state_.inertia[i] > 0.0 ? state_.m[i] / state_.inertia[i] : Vec3{};
     }
   });
 }
@@ -170,10 +172,10 @@ void Cycle::integrate() {
   state::StepTimes& t = state_.times;
   const double h_bar = t.h_bar;
   const double h = t.h_plus;
-  pool_.for_ranges(state_.mass.size(), 2048, [this, h_bar, h](std::size_t begin, std::size_t end) {
+  pool_.for_ranges(state_.mass.size(), node_grain, [this, h_bar, h](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       state_.v[i] += h_bar * state_.a[i];
-      state_.w[i] += h_bar * state_.alpha[i];
+      if (rotations_) state_.w[i] += h_bar * state_.alpha[i];
       const Vec3 step = h * state_.v[i];
       state_.x[i] += step;
       state_.u[i] += step;

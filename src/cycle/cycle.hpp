@@ -52,11 +52,10 @@ class Cycle {
   void decide_outputs();
   void switch_off_rigid_elements();
   void check_minimum_step(const elements::Group& group, const elements::GroupResult& result) const;
-  void clear_forces();
   void internal_forces(StepLimits& limits);
   void contact_forces(StepLimits& limits);
   void erode();
-  void total_forces();
+  void assemble();
   void accelerate();
   void release_boundary_conditions();
   void book_interfaces();
@@ -89,7 +88,9 @@ class Cycle {
   std::vector<double> contact_stiffness_;                  // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
   std::vector<double> contact_area_;
-  bool releases_ = false;  // some interface asks for IBC
+  bool releases_ = false;   // some interface asks for IBC
+  bool loaded_ = false;     // there are concentrated or pressure loads; else external forces stay zero
+  bool rotations_ = false;  // some node has inertia, or can be turned by a condition
 
   std::unique_ptr<TimeStep> time_step_;
   Ledger ledger_;

@@ -7,7 +7,6 @@
 
 #include <vector>
 
-#include "constraints/work_meter.hpp"
 #include "parallel/thread_pool.hpp"
 #include "state/state.hpp"
 
@@ -17,25 +16,36 @@ namespace abut::cycle {
 struct KineticSums {
   double translation = 0.0, rotation = 0.0, mass = 0.0;
   Vec3 momentum;
-  KineticSums& operator+=(const KineticSums& b);
+  double leapfrog = 0.0;  ///< T* of work_meter.hpp, translation and rotation
 };
 
 class Ledger {
  public:
-  /// Sums over all nodes in a fixed order: momentum and energies of v(n) = v(n-1/2) + h-/2 a(n) (numerics.md 1.6.2), or
-  /// energies in the product form v(n-1/2).v(n+1/2).
-  [[nodiscard]] KineticSums kinetic(const state::State& s, bool product_form, parallel::ThreadPool& pool);
+  /// @param rotations  false: no node has inertia or feels a moment, rotational terms are left out
+  explicit Ledger(bool rotations = true) : rotations_(rotations) {}
+
+  /// One pass over all nodes, in a fixed order, for the kinetic sums and the works of internal and contact forces. Momentum and energies
+  /// of v(n) = v(n-1/2) + h-/2 a(n) (numerics.md 1.6.2), or energies in the product form v(n-1/2).v(n+1/2).
+  KineticSums sum(const state::State& s, bool product_form, parallel::ThreadPool& pool);
 
   /// Before the first cycle: T* of the start.
   void open(double kinetic) { start_ = kinetic; }
 
-  /// Closes the cycle, everything final. @param kinetic T* of the structure. @param constraint_work bookings of loads and
+  /// Closes the cycle after sum(). @param kinetic T* of the structure. @param constraint_work bookings of loads and
   /// constraints. @return T* minus its start minus all works so far: zero to rounding
-  double close(const state::State& s, double kinetic, double constraint_work);
+  double close(double kinetic, double constraint_work);
 
  private:
-  std::vector<KineticSums> leaves_;
-  constraints::ForceWork elements_, contact_;
+  // Terms of one leaf of nodes. Powers of a force f: f.v with the velocity before the kick, and with the one after it.
+  struct Leaf {
+    KineticSums kinetic;
+    double internal_before = 0.0, internal_after = 0.0, contact_before = 0.0, contact_after = 0.0;
+    Leaf& operator+=(const Leaf& b);
+  };
+  std::vector<Leaf> leaves_;
+  bool rotations_;
+  double booked_ = 0.0;       // work of this cycle, by sum()
+  double second_half_ = 0.0;  // of the kick of the cycle before
   double works_ = 0.0;
   double start_ = 0.0;
 };

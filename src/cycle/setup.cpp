@@ -55,6 +55,16 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   }
   time_step_ = std::make_unique<TimeStep>(model, options.profile, has_two_sided_interface(model), std::move(free_translation),
                                           std::move(free_rotation));
+  loaded_ = !model.concentrated_loads.empty() || !model.pressure_loads.empty();
+  rotations_ = !model.rigid_bodies.empty() || !model.imposed_motions.empty() ||
+               std::any_of(state_.inertia.begin(), state_.inertia.end(), [](double j) { return j > 0.0; });
+  ledger_ = Ledger(rotations_);
+  for (init::RunInterface& i : interfaces_) {
+    i.contact.set_executor([this](std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
+      constexpr std::size_t groups = 4;  // of nodes, some 10 us
+      pool_.for_ranges(count, groups, body);
+    });
+  }
   ledger_.open(constraints::ledger_kinetic_energy(state_) + bodies_.ledger_correction(state_));
   next_animation_ = model.controls.animation_start;
 }

@@ -74,34 +74,6 @@ Assembly::Assembly(Index node_count, const model::Model& model, std::span<const 
   solids_ = pack(solids);
 }
 
-void Assembly::sum(std::span<const double> slots, const NodalSums& sums, parallel::ThreadPool& pool) const {
-  const double* s = slots.data();
-  pool.for_ranges(sums.stiffness.size(), 512, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Vec3 f;
-      Vec3 m;
-      double k = 0.0;
-      double kr = 0.0;
-      for (std::uint32_t j = shells_.first[i]; j < shells_.first[i + 1]; ++j) {
-        const double* p = s + shells_.slot[j];
-        f += Vec3{p[0], p[lanes], p[2 * lanes]};
-        k += p[3 * lanes];
-        m += Vec3{p[4 * lanes], p[5 * lanes], p[6 * lanes]};
-        kr += p[7 * lanes];
-      }
-      for (std::uint32_t j = solids_.first[i]; j < solids_.first[i + 1]; ++j) {
-        const double* p = s + solids_.slot[j];
-        f += Vec3{p[0], p[lanes], p[2 * lanes]};
-        k += p[3 * lanes];
-      }
-      sums.force[i] = f;
-      sums.moment[i] = m;
-      sums.stiffness[i] = k;
-      sums.rotational_stiffness[i] = kr;
-    }
-  });
-}
-
 void Assembly::sum_masses(std::span<const double> slots, std::span<double> mass, std::span<double> inertia) const {
   for (std::size_t i = 0; i < mass.size(); ++i) {
     double m = 0.0;

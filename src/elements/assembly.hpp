@@ -9,16 +9,13 @@
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "elements/group.hpp"
-#include "parallel/thread_pool.hpp"
 
 namespace abut::elements {
 
-/// Nodal sums of one assembly, #N (by 3).
-struct NodalSums {
-  std::span<Vec3> force;  ///< internal force
-  std::span<Vec3> moment;
-  std::span<double> stiffness;
-  std::span<double> rotational_stiffness;
+/// Sums of one node.
+struct NodalSum {
+  Vec3 force, moment;  ///< internal
+  double stiffness = 0.0, rotational_stiffness = 0.0;
 };
 
 /// For every node the list of slots that belong to it, shells (4-node, then 3-node) before solids (bricks, then
@@ -31,8 +28,23 @@ class Assembly {
   /// Doubles that all groups' slots take together.
   [[nodiscard]] std::size_t slot_count() const { return slot_count_; }
 
-  /// Overwrites `sums` with the sums of components fx fy fz K (and mx my mz Kr of shells).
-  void sum(std::span<const double> slots, const NodalSums& sums, parallel::ThreadPool& pool) const;
+  /// Sums of components fx fy fz K (and mx my mz Kr of shells) at node i. @param slots as long as slot_count()
+  [[nodiscard]] NodalSum sum(const double* slots, std::size_t i) const {
+    NodalSum n;
+    for (std::uint32_t j = shells_.first[i]; j < shells_.first[i + 1]; ++j) {
+      const double* p = slots + shells_.slot[j];
+      n.force += Vec3{p[0], p[lanes], p[2 * lanes]};
+      n.stiffness += p[3 * lanes];
+      n.moment += Vec3{p[4 * lanes], p[5 * lanes], p[6 * lanes]};
+      n.rotational_stiffness += p[7 * lanes];
+    }
+    for (std::uint32_t j = solids_.first[i]; j < solids_.first[i + 1]; ++j) {
+      const double* p = slots + solids_.slot[j];
+      n.force += Vec3{p[0], p[lanes], p[2 * lanes]};
+      n.stiffness += p[3 * lanes];
+    }
+    return n;
+  }
 
   /// Sums of component 0 (mass) and 1 (inertia) after Group::initial_masses.
   void sum_masses(std::span<const double> slots, std::span<double> mass, std::span<double> inertia) const;

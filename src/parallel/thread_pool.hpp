@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 namespace abut::parallel {
 
@@ -22,9 +23,19 @@ class ThreadPool {
   /// Calls body(begin, end) on disjoint ranges that cover [0, count); returns when all are done.
   /// The first exception that a body throws is rethrown here after all bodies have ended.
   /// @param grain smallest range worth a thread of its own
-  void for_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+  template <class Body>
+  void for_ranges(std::size_t count, std::size_t grain, Body&& body) {
+    using Plain = std::remove_reference_t<Body>;
+    run(
+        count, grain, [](const void* b, std::size_t begin, std::size_t end) { (*static_cast<Plain*>(const_cast<void*>(b)))(begin, end); },
+        std::addressof(body));
+  }
 
  private:
+  // A loop body without ownership: nothing is allocated per loop.
+  using Call = void (*)(const void*, std::size_t, std::size_t);
+  void run(std::size_t count, std::size_t grain, Call call, const void* body);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,4 +1,4 @@
-// log, exp and pow over the number types: the same bits for double and for every Pack width, on every CPU.
+// log, exp, pow and an arctangent over the number types: the same bits for double and for every Pack width, on every CPU.
 //
 // Only + - * /, comparison and operations on the bits of a double are used, so that the result does not depend on libm
 // or on the instruction set. Method: argument reduction by powers of two, log(m) = 2 atanh((m-1)/(m+1)) with the quotient
@@ -171,6 +171,24 @@ ABUT_INLINE T pow(T x, T y) {
   const T at_infinity = select(y > zero, inf, select(y < zero, zero, T(1.0)));
   const T special = select(x < zero, inf - inf, select(x < smallest, at_zero, select(x >= inf, at_infinity, x)));
   return select(proper, value, special);
+}
+
+/// Angle of the point (x, y) from the x axis, 0 to pi, for y >= 0; 0 at the origin. atan2 of a finite y >= 0 to about 5e-16 relative:
+/// the ratio in [0, 1] is halved twice in angle, t -> t/(1 + sqrt(1 + t^2)), then the series of the arctangent is summed.
+template <class T>
+ABUT_INLINE T angle_of(T x, T y) {
+  const T zero = T(0.0), one = T(1.0);
+  const T ax = abs(x), small = min(ax, y), large = max(ax, y);
+  const auto proper = large > zero;
+  T t = select(proper, small / select(proper, large, one), zero);
+  for (int i = 0; i < 2; ++i) t = t / (one + sqrt(one + t * t));
+  const T tt = t * t;  // at most tan(pi/16)^2 = 0.0396
+  T sum = T(1.0 / 23.0);
+  for (int k = 21; k >= 1; k -= 2) sum = T(1.0 / k) - tt * sum;
+  constexpr double pi = 0x1.921fb54442d18p+1;
+  T angle = T(4.0) * (t * sum);
+  angle = select(y > ax, T(0.5 * pi) - angle, angle);
+  return select(x < zero, T(pi) - angle, angle);
 }
 
 }  // namespace abut::simd

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,6 +25,10 @@
 namespace abut::contact {
 
 class InterfaceModel;  // internal
+
+/// Runs body(begin, end) on disjoint ranges that cover [0, count), on any threads and in any order; returns when all are done and
+/// hands on what a body throws. The results of an interface do not depend on how the ranges are cut.
+using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body)>;
 
 /// What changes about a surface: spans of #F values, copied when set.
 struct SurfaceState {
@@ -76,6 +81,8 @@ class Interface {
   /// appears once with the sum. Two-sided ones take the largest move of a node.
   /// @param x  #N by 3, positions; stiffness, activity and time window do not matter
   [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const;
+  /// Loops over nodes run through `executor` from now on; without one they run in the caller.
+  void set_executor(Executor executor);
 
   /// Once per step, before evaluate, with the same positions.
   void search(const HostState& host);

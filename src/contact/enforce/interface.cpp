@@ -27,6 +27,7 @@ void Interface::set_surface(int side, const SurfaceState& state) { model_->set_s
 std::vector<Projection> Interface::projections(std::span<const Vec3> x, bool move_surface) const {
   return model_->projections(x, move_surface);
 }
+void Interface::set_executor(Executor executor) { model_->set_executor(std::move(executor)); }
 void Interface::search(const HostState& host) { model_->search(host); }
 StepResult Interface::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   return model_->evaluate(host, force, stiffness);

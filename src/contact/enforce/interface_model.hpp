@@ -14,6 +14,8 @@ class InterfaceModel {
 
   virtual void set_surface(int side, const SurfaceState& state) = 0;
   [[nodiscard]] virtual std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const = 0;
+  /// Those whose loops are short may leave it.
+  virtual void set_executor(Executor /*executor*/) {}
   virtual void search(const HostState& host) = 0;
   virtual StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) = 0;
   virtual void commit(double dt) = 0;

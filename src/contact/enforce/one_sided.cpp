@@ -79,6 +79,7 @@ void OneSided::prepare() {
   for (std::size_t k = 0; k < 2; ++k) {
     loads_[k].resize(at(side_[k].node_count()));
     side_[k].set({}, options_.rules.triangle_third_node_twice);
+    host_nodes_ = std::max(host_nodes_, largest_node(side_[k]));
   }
 }
 
@@ -135,9 +136,13 @@ std::vector<Projection> OneSided::projections(std::span<const Vec3> x, bool move
   return out;
 }
 
+void OneSided::set_executor(Executor executor) {
+  for (Pass& pass : pass_) pass.set_executor(executor);
+}
+
 void OneSided::search(const HostState& host) {
+  if (host_nodes_ > host.x.size()) throw std::invalid_argument("contact: the host has fewer nodes than the interface");
   for (std::size_t k = 0; k < 2; ++k) {
-    if (largest_node(side_[k]) > host.x.size()) throw std::invalid_argument("contact: the host has fewer nodes than the interface");
     side_[k].gather(host.x);
     if (!started_) loads_[k].x_before.assign(side_[k].x().begin(), side_[k].x().end());
   }
@@ -166,6 +171,7 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
     SideLoads& loads = loads_[k];
     loads.work_step = 0.0;
     for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+      if (loads.loaded[s] == 0) continue;
       const Vec3 f = loads.total(s);
       loads.work_step += dot(0.5 * (loads.force_before[s] + f), side_[k].x()[s] - loads.x_before[s]);
       const std::size_t node = at(side_[k].nodes()[s]);
@@ -205,9 +211,11 @@ void OneSided::commit(double) {
     loads.work += loads.work_step;
     loads.work_step = 0.0;
     for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+      if (loads.loaded[s] == 0) continue;
       loads.force_before[s] = loads.total(s);
-      loads.x_before[s] = side_[k].x()[s];
+      loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
     }
+    std::copy(side_[k].x().begin(), side_[k].x().end(), loads.x_before.begin());
   }
   friction_work_ += friction_step_;
   friction_step_ = 0.0;
@@ -265,6 +273,7 @@ void OneSided::restore(std::span<const std::byte> history) {
     in.get(loads_[k].work);
     in.get_all(loads_[k].force_before);
     in.get_all(loads_[k].x_before);
+    std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), SideLoads::before);
   }
   for (Pass& pass : pass_) pass.load(in);
   in.finish();

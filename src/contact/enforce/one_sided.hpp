@@ -15,6 +15,7 @@ class OneSided final : public InterfaceModel {
 
   void set_surface(int side, const SurfaceState& state) override;
   [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const override;
+  void set_executor(Executor executor) override;
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
   void commit(double dt) override;
@@ -27,6 +28,7 @@ class OneSided final : public InterfaceModel {
  private:
   Options options_;
   bool two_passes_;
+  std::size_t host_nodes_ = 0;  ///< that the host must have at least
   std::array<Side, 2> side_;
   std::array<SideLoads, 2> loads_;
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "contact/enforce/coefficient.hpp"
 #include "contact/enforce/switching.hpp"
@@ -29,13 +30,34 @@ void SideLoads::resize(std::size_t nodes) {
     v->resize(nodes);
   own_stiffness.resize(nodes);
   reaction_stiffness.resize(nodes);
+  loaded.resize(nodes);
 }
 
 void SideLoads::clear() {
-  for (std::vector<Vec3>* v : {&own_normal, &own_tangential, &reaction_normal, &reaction_tangential})
-    std::fill(v->begin(), v->end(), Vec3{});
-  std::fill(own_stiffness.begin(), own_stiffness.end(), 0.0);
-  std::fill(reaction_stiffness.begin(), reaction_stiffness.end(), 0.0);
+  for (std::size_t s = 0; s < loaded.size(); ++s) {
+    if ((loaded[s] & now) == 0) continue;
+    own_normal[s] = own_tangential[s] = reaction_normal[s] = reaction_tangential[s] = {};
+    own_stiffness[s] = reaction_stiffness[s] = 0.0;
+    loaded[s] &= before;
+  }
+}
+
+PassTotals& PassTotals::operator+=(const PassTotals& b) {
+  normal += b.normal;
+  tangential += b.tangential;
+  potential += b.potential;
+  stick += b.stick;
+  dissipated += b.dissipated;
+  damped += b.damped;
+  largest_penetration = std::max(largest_penetration, b.largest_penetration);
+  largest_approach = std::max(largest_approach, b.largest_approach);
+  if (b.kinematic_step < kinematic_step) {
+    kinematic_step = b.kinematic_step;
+    kinematic_node = b.kinematic_node;
+  }
+  in_contact += b.in_contact;
+  crossed += b.crossed;
+  return *this;
 }
 
 Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
@@ -45,7 +67,7 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       state_(held_nodes),
       next_(held_nodes),
-      touches_(at(group)) {}
+      quiet_(held_nodes, awake) {}
 
 void Pass::start(const Side& held, const Side& surface) {
   started_ = true;
@@ -59,6 +81,7 @@ void Pass::start(const Side& held, const Side& surface) {
     }
     depth_[at(f)] = depth;
   }
+  limit_depths();
   tracked_.assign(at(held.node_count()), {});
   if (closest()) return;
   incremental_.start(held, surface, tracked_);
@@ -79,17 +102,21 @@ void Pass::start(const Side& held, const Side& surface) {
   }
 }
 
-void Pass::search(const Side& held, const Side& surface, const SideLoads& surface_loads) {
-  if (!closest()) {
-    incremental_.update(held, surface, tracked_, options_.gap);
-    return;
-  }
+void Pass::limit_depths() {
   smallest_depth_ = 1e300;
   largest_depth_ = 0.0;
   for (const double d : depth_) {
     smallest_depth_ = std::min(smallest_depth_, d);
     largest_depth_ = std::max(largest_depth_, d);
   }
+}
+
+void Pass::search(const Side& held, const Side& surface, const SideLoads& surface_loads) {
+  if (!closest()) {
+    incremental_.update(held, surface, tracked_, options_.gap);
+    return;
+  }
+  if (stale_) std::fill(quiet_.begin(), quiet_.end(), std::uint8_t{awake});
   skin_ = 0.25 * size_;
   const double reach = std::max(options_.gap, largest_depth_);
   // A held node's distance changes by at most slack() <= skin until the next build: twice the skin covers both ends.
@@ -110,6 +137,22 @@ void Pass::search(const Side& held, const Side& surface, const SideLoads& surfac
     surface_step_ = std::max(surface_step_, squared_norm(surface.x()[s] - surface_loads.x_before[s] - mean_step_));
   }
   surface_step_ = std::sqrt(surface_step_);
+}
+
+bool Pass::far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
+  // Neither the motion of the last step nor that of the coming one may come near a quarter of the way.
+  const double clear = 0.25 * std::min(smallest_depth_, candidates_.nearest_due(i) - candidates_.clock() - options_.gap) - surface_step_;
+  if (clear <= 0.0) return false;
+  const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
+  const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;
+  return std::max(squared_norm(last), squared_norm(coming)) < clear * clear;
+}
+
+bool Pass::asleep(const Scene& scene, Index i) const {
+  const std::uint8_t quiet = quiet_[at(i)];
+  if (quiet == awake || scene.host.dt <= 0.0) return false;
+  if (quiet == nothing_listed && !candidates_.of(i).empty()) return false;
+  return far(scene.host, scene.held, scene.held_loads, i);
 }
 
 Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
@@ -144,10 +187,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   const Vec3 x = held.x()[at(i)];
   const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
   if (before.in_front != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
-    const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
-    const double moved = std::max(norm(x - held_loads.x_before[at(i)] - mean_step_), norm(coming)) + surface_step_;
-    const double reached = options_.gap + 4.0 * moved;
-    if (moved < 0.25 * smallest_depth_ && candidates_.nearest_then(i) - candidates_.slack() > reached) {
+    if (far(host, held, held_loads, i)) {
       touch.far = true;
       after.offset = 0.0;
       return;
@@ -285,10 +325,12 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
     largest = std::max(largest, pair);
   });
   held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
+  held_loads.loaded[at(i)] |= SideLoads::now;
 }
 
-void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads,
-                       Index i, Touch& touch, bool rub, PassTotals& totals) {
+void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
+                       GroupSums& sums) {
+  PassTotals& totals = sums.totals;
   const NodeState& before = state_[at(i)];
   NodeState& after = next_[at(i)];
   const Rules& rules = options_.rules;
@@ -301,7 +343,9 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const Kinematics motion = kinematics(host, held, surface, i, touch);
   const double closing = -motion.rate;
   if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, closing * host.dt / options_.gap);
-  const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
+  Reaction reaction;
+  reaction.facet = touch.facet;
+  reaction.weight = touch.weight;
 
   // Stiffness for the coming step, also where contact may begin in it.
   if (rules.limits_step) {
@@ -326,7 +370,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       for (const double w : touch.weight) spread += std::abs(w);
       tangent *= 0.5 * (1.0 + spread);
       held_loads.own_stiffness[at(i)] += tangent;
-      for (std::size_t k = 0; k < 4; ++k) surface_loads.reaction_stiffness[at(corner[k])] += std::abs(touch.weight[k]) * tangent;
+      held_loads.loaded[at(i)] |= SideLoads::now;
+      reaction.stiffness = tangent;
     }
     if (law_.stiffens() && closing > 0.0) {
       const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);
@@ -337,11 +382,14 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     }
   }
 
-  if (!touch.contact) return;  // history of a contact that ends: closed by the caller
+  if (!touch.contact) {  // history of a contact that ends: closed by the caller
+    if (reaction.stiffness > 0.0) sums.reactions.push_back(reaction);
+    return;
+  }
   totals.in_contact += 1;
   totals.crossed += touch.fresh_hit ? 1 : 0;
   totals.largest_penetration = std::max(totals.largest_penetration, penetration);
-  in_contact_.push_back(held.nodes()[at(i)]);
+  sums.in_contact.push_back(held.nodes()[at(i)]);
 
   const bool fresh = before.held == 0;
   double fraction = 1.0;  // of the last step in contact
@@ -359,18 +407,19 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   } else {
     totals.potential += touch.pair.potential;
   }
-  double normal_force = factor * touch.pair.magnitude;
+  const double normal_force = factor * touch.pair.magnitude;
   Vec3 on_node = factor * touch.pair.on_node;
-  for (std::size_t k = 0; k < 4; ++k) { surface_loads.reaction_normal[at(corner[k])] += factor * touch.pair.on_facet[k]; }
+  for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
   after.damping = 0.0;
   if (options_.damping > 0.0 && motion.inverse_mass > 0.0) {
     const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / motion.inverse_mass);
     after.damping = std::max(-c * motion.rate, -normal_force);
     totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
     on_node += after.damping * touch.normal;
-    for (std::size_t k = 0; k < 4; ++k) surface_loads.reaction_normal[at(corner[k])] -= touch.weight[k] * after.damping * touch.normal;
+    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= touch.weight[k] * after.damping * touch.normal;
   }
   held_loads.own_normal[at(i)] = on_node;
+  held_loads.loaded[at(i)] |= SideLoads::now;
   totals.normal += on_node;
 
   after.held = 1;
@@ -392,49 +441,93 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     held_loads.own_tangential[at(i)] = -on_surface;
-    for (std::size_t k = 0; k < 4; ++k) surface_loads.reaction_tangential[at(corner[k])] += touch.weight[k] * on_surface;
+    reaction.tangential = on_surface;
     totals.tangential -= on_surface;
+  }
+  sums.reactions.push_back(reaction);
+}
+
+void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touches, GroupSums& sums) {
+  const auto& [host, held, surface, held_loads, surface_loads] = scene;
+  const bool anchors = options_.rules.reference_friction;
+  sums.totals = {};
+  sums.reactions.clear();
+  sums.in_contact.clear();
+  std::array<Index, at(group)> nodes;
+  std::size_t count = 0;
+  bool any = false;
+  const Index last = std::min(first + group, held.node_count());
+  for (Index i = first; i < last; ++i) {
+    if (asleep(scene, i)) continue;
+    Touch& touch = touches[count];
+    nodes[count++] = i;
+    next_[at(i)] = state_[at(i)];
+    if (closest()) {
+      measure_closest(host, held, surface, held_loads, surface_loads, i, touch);
+    } else {
+      measure_plain(held, surface, i, touch);
+    }
+    any = any || touch.contact;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index i = nodes[k];
+    Touch& touch = touches[k];
+    // 7.4.3: anchors are looked at only in groups in which somebody touches.
+    finish_node(host, held, surface, held_loads, i, touch, any, sums);
+    NodeState& after = next_[at(i)];
+    quiet_[at(i)] = awake;
+    if (touch.contact) continue;
+    const NodeState& before = state_[at(i)];
+    after.held = 0;
+    // The last damping force acts over half of the step that ends the contact.
+    if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
+    after.damping = 0.0;
+    after.rate = 0.0;
+    after.acceleration = 0.0;
+    if (!anchors || any) {
+      // The limit falls to zero: what was stored slips away.
+      if (before.tangential_stiffness > 0.0) {
+        sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
+      }
+      after.anchored = 0;
+      after.slip = {};
+      if (!anchors) after.filtered = {};
+      after.friction = {};
+      after.tangential_stiffness = 0.0;
+    }
+    const bool nothing = candidates_.of(i).empty();
+    if (closest() && (touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
+      quiet_[at(i)] = nothing ? nothing_listed : in_front;
+    }
   }
 }
 
 PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads) {
+  const Scene scene{host, held, surface, held_loads, surface_loads};
+  groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
+  const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
+    std::array<Touch, at(group)> touches;
+    for (std::size_t g = begin; g < end; ++g) evaluate_group(scene, static_cast<Index>(g) * group, touches, groups_[g]);
+  };
+  if (executor_) {
+    executor_(groups_.size(), evaluate_groups);
+  } else {
+    evaluate_groups(0, groups_.size());
+  }
+
   PassTotals totals;
   in_contact_.clear();
-  const bool anchors = options_.rules.reference_friction;
-  for (Index first = 0; first < held.node_count(); first += group) {
-    const Index last = std::min(first + group, held.node_count());
-    bool any = false;
-    for (Index i = first; i < last; ++i) {
-      Touch& touch = touches_[at(i - first)];
-      next_[at(i)] = state_[at(i)];
-      if (closest()) {
-        measure_closest(host, held, surface, held_loads, surface_loads, i, touch);
-      } else {
-        measure_plain(held, surface, i, touch);
-      }
-      any = any || touch.contact;
-    }
-    for (Index i = first; i < last; ++i) {
-      Touch& touch = touches_[at(i - first)];
-      // 7.4.3: anchors are looked at only in groups in which somebody touches.
-      finish_node(host, held, surface, held_loads, surface_loads, i, touch, any, totals);
-      NodeState& after = next_[at(i)];
-      if (touch.contact) continue;
-      const NodeState& before = state_[at(i)];
-      after.held = 0;
-      // The last damping force acts over half of the step that ends the contact.
-      if (before.damping != 0.0) totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
-      after.damping = 0.0;
-      after.rate = 0.0;
-      after.acceleration = 0.0;
-      if (!anchors || any) {
-        // The limit falls to zero: what was stored slips away.
-        if (before.tangential_stiffness > 0.0) { totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness; }
-        after.anchored = 0;
-        after.slip = {};
-        if (!anchors) after.filtered = {};
-        after.friction = {};
-        after.tangential_stiffness = 0.0;
+  for (const GroupSums& sums : groups_) {
+    totals += sums.totals;
+    in_contact_.insert(in_contact_.end(), sums.in_contact.begin(), sums.in_contact.end());
+    for (const Reaction& r : sums.reactions) {
+      const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t s = at(corner[k]);
+        surface_loads.reaction_normal[s] += r.normal[k];
+        surface_loads.reaction_tangential[s] += r.weight[k] * r.tangential;
+        surface_loads.reaction_stiffness[s] += std::abs(r.weight[k]) * r.stiffness;
+        surface_loads.loaded[s] |= SideLoads::now;
       }
     }
   }
@@ -444,6 +537,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
 
 PassTotals Pass::rest() {
   PassTotals totals;
+  stale_ = true;
   in_contact_.clear();
   for (std::size_t i = 0; i < state_.size(); ++i) {
     const NodeState& before = state_[i];
@@ -475,6 +569,7 @@ void Pass::load(HistoryReader& in) {
   started_ = facets > 0;
   depth_.resize(facets);
   for (double& d : depth_) in.get(d);
+  limit_depths();
   in.get(size_);
   in.get(settled_);
   tracked_.resize(started_ ? state_.size() : 0);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/enforce/history.hpp"
@@ -20,8 +21,11 @@ struct SideLoads {
   std::vector<Vec3> own_normal, own_tangential, reaction_normal, reaction_tangential;
   std::vector<double> own_stiffness, reaction_stiffness;
   std::vector<Vec3> force_before, x_before;  ///< of the last committed step
-  double work = 0.0;                         ///< committed: sum (f_old + f_new)/2 . dx
-  double work_step = 0.0;                    ///< of the step that evaluate() saw
+  /// Which of them can be other than zero: the loads of this step, the force of the last.
+  static constexpr std::uint8_t now = 1, before = 2;
+  std::vector<std::uint8_t> loaded;
+  double work = 0.0;       ///< committed: sum (f_old + f_new)/2 . dx
+  double work_step = 0.0;  ///< of the step that evaluate() saw
 
   void resize(std::size_t nodes);
   void clear();
@@ -64,11 +68,16 @@ struct PassTotals {
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;
   Index in_contact = 0, crossed = 0;
+
+  /// Adds those of the next nodes.
+  PassTotals& operator+=(const PassTotals& b);
 };
 
 class Pass {
  public:
   Pass(const Options& options, bool one_pass, std::size_t held_nodes);
+
+  void set_executor(Executor executor) { executor_ = std::move(executor); }
 
   /// Once, on the first geometry: depth limits, nearest nodes, anchors of contacts that exist at the start.
   void start(const Side& held, const Side& surface);
@@ -99,6 +108,29 @@ class Pass {
     double penetration = 0.0;
     PairForce pair;
   };
+  // What a node does to the corners of its facet; added in the order of the nodes when all are measured.
+  struct Reaction {
+    Index facet = no_index;
+    double stiffness = 0.0;
+    std::array<double, 4> weight{};
+    std::array<Vec3, 4> normal{};
+    Vec3 tangential;
+  };
+  // Results of `group` consecutive nodes, which one thread handles.
+  struct GroupSums {
+    PassTotals totals;
+    std::vector<Reaction> reactions;
+    std::vector<Index> in_contact;
+  };
+  struct Scene {
+    const HostState& host;
+    const Side& held;
+    const Side& surface;
+    SideLoads& held_loads;
+    const SideLoads& surface_loads;
+  };
+  // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
+  enum Quiet : std::uint8_t { awake, in_front, nothing_listed };
   struct Kinematics {
     double rate = 0.0;          ///< of opening, n.(v - v_point)
     double inverse_mass = 0.0;  ///< of the pair; 0: unknown
@@ -117,7 +149,9 @@ class Pass {
   std::vector<NodeState> state_, next_;
   std::vector<Tracked> tracked_;
   std::vector<Index> in_contact_;
-  std::vector<Touch> touches_;
+  std::vector<GroupSums> groups_;
+  std::vector<std::uint8_t> quiet_;  ///< Quiet of every held node
+  Executor executor_;
   Candidates candidates_;
   IncrementalSearch incremental_;
   double surface_step_ = 0.0;  ///< largest motion of the surface in the last step, relative to its mean
@@ -132,8 +166,13 @@ class Pass {
   [[nodiscard]] Index swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads,
                                   Index i) const;
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
-  void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads, Index i,
-                   Touch& touch, bool rub, PassTotals& totals);
+  void limit_depths();
+  /// True while the node cannot touch, now or in the coming step.
+  [[nodiscard]] bool far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const;
+  [[nodiscard]] bool asleep(const Scene& scene, Index i) const;
+  void evaluate_group(const Scene& scene, Index first, std::span<Touch> touches, GroupSums& sums);
+  void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
+                   GroupSums& sums);
   [[nodiscard]] Vec3 rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion,
                                            double limit, double fraction, const NodeState& before, NodeState& after,
                                            PassTotals& totals) const;

@@ -6,10 +6,13 @@
 namespace abut::contact {
 namespace {
 
-// Largest |x - then - shift|.
-double largest_motion(std::span<const Vec3> x, std::span<const Vec3> then, const Vec3& shift) {
+// Largest |x - last - shift|; x becomes last.
+double largest_motion(std::span<const Vec3> x, std::vector<Vec3>& last, const Vec3& shift) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, squared_norm(x[i] - then[i] - shift));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    largest = std::max(largest, squared_norm(x[i] - last[i] - shift));
+    last[i] = x[i];
+  }
   return std::sqrt(largest);
 }
 
@@ -27,19 +30,27 @@ Bounds facet_bounds(const Patch& patch) {
   return box;
 }
 
+void Candidates::advance(const Side& held, const Side& surface) {
+  Vec3 sum{};
+  for (std::size_t i = 0; i < surface.x().size(); ++i) sum += surface.x()[i] - surface_last_[i];
+  const Vec3 mean = surface.x().empty() ? Vec3{} : sum / static_cast<double>(surface.x().size());
+  // Strips extrapolate their corners' motion: weights up to 1.2 x 1.2 in sum of magnitudes, 1.5 with room.
+  const double change = largest_motion(held.x(), held_last_, mean) + 1.5 * largest_motion(surface.x(), surface_last_, mean);
+  shift_ += mean;
+  slack_ += change;
+  clock_ += change;
+}
+
 void Candidates::update(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, bool force) {
   if (!force && !first_.empty()) {
-    Vec3 sum{};
-    for (std::size_t i = 0; i < surface.x().size(); ++i) sum += surface.x()[i] - surface_then_[i];
-    shift_ = surface.x().empty() ? Vec3{} : sum / static_cast<double>(surface.x().size());
-    // Strips extrapolate their corners' motion: weights up to 1.2 x 1.2 in sum of magnitudes, 1.5 with room.
-    slack_ = largest_motion(held.x(), held_then_, shift_) + 1.5 * largest_motion(surface.x(), surface_then_, shift_);
+    advance(held, surface);
     if (slack_ <= skin) return;
   }
   shift_ = {};
   slack_ = 0.0;
-  held_then_.assign(held.x().begin(), held.x().end());
-  surface_then_.assign(surface.x().begin(), surface.x().end());
+  clock_ = 0.0;
+  held_last_.assign(held.x().begin(), held.x().end());
+  surface_last_.assign(surface.x().begin(), surface.x().end());
   boxes_.resize(at(surface.facet_count()));
   for (Index f = 0; f < surface.facet_count(); ++f) boxes_[at(f)] = facet_bounds(surface.patch(f));
   tree_.build(boxes_);
@@ -61,7 +72,7 @@ void Candidates::update(const Side& held, const Side& surface, const std::functi
         }
         const double away = std::sqrt(closest_point(surface.patch(f), x).squared_distance);
         if (away > limit) return;
-        entries_.push_back({f, away});
+        entries_.push_back({f, away});  // the clock shows 0
         nearest_[at(i)] = std::min(nearest_[at(i)], away);
       });
       std::sort(entries_.begin() + begin, entries_.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });

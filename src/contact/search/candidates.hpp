@@ -11,11 +11,14 @@
 namespace abut::contact {
 
 /// Lists hold every active facet whose distance to the node is at most its reach, now and until slack() exceeds the skin.
+///
+/// A clock counts, step by step, how much any node-to-facet distance can have changed: a distance measured when the clock showed c is
+/// at least its value then - (clock - c). Entries keep value + c, so that one comparison tells whether a facet can be the nearest.
 class Candidates {
  public:
   struct Entry {
     Index facet;
-    double distance;  ///< to the node when the list was made
+    double due;  ///< distance when last measured + the clock then: the distance now is at least due - clock()
   };
 
   /// Rebuilds the lists when the motion since the last build exceeds `skin` (or `force` is set).
@@ -26,8 +29,14 @@ class Candidates {
   [[nodiscard]] std::span<const Entry> of(Index node) const {
     return std::span(entries_).subspan(at(first_[at(node)]), at(first_[at(node) + 1] - first_[at(node)]));
   }
-  /// Distance of the node's nearest facet when the lists were made; 1e300: none listed.
-  [[nodiscard]] double nearest_then(Index node) const { return nearest_[at(node)]; }
+  /// The same, for whoever measures a distance and writes it back with the clock. Entries of a node belong to one thread at a time.
+  [[nodiscard]] std::span<Entry> of(Index node) {
+    return std::span(entries_).subspan(at(first_[at(node)]), at(first_[at(node) + 1] - first_[at(node)]));
+  }
+  [[nodiscard]] double clock() const { return clock_; }
+  /// Distance of the node's nearest listed facet + the clock when it was measured (see Entry::due); 1e300: none listed.
+  [[nodiscard]] double nearest_due(Index node) const { return nearest_[at(node)]; }
+  void set_nearest_due(Index node, double due) { nearest_[at(node)] = due; }
   /// Upper bound of the change of any node-to-facet distance since the lists were made.
   [[nodiscard]] double slack() const { return slack_; }
   /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box.
@@ -45,9 +54,12 @@ class Candidates {
   std::vector<Index> first_;
   std::vector<Entry> entries_;
   std::vector<double> nearest_;
-  std::vector<Vec3> held_then_, surface_then_;
-  Vec3 shift_;
+  std::vector<Vec3> held_last_, surface_last_;  ///< positions at the last update
+  Vec3 shift_;                                  ///< mean motion of the surface since the lists were made
   double slack_ = 0.0;
+  double clock_ = 0.0;
+
+  void advance(const Side& held, const Side& surface);
 };
 
 /// Box of a facet with its strips.

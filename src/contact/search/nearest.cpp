@@ -1,5 +1,6 @@
 #include "contact/search/nearest.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut::contact {
@@ -31,7 +32,8 @@ Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest
   return m;
 }
 
-Measure nearest(const Side& surface, const Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
+Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
+  constexpr double rounding = 1.0 + 1e-12;  // of the clock's sums
   Measure best;
   bool held_in_front = false;
   double best_distance = 1e300;
@@ -42,16 +44,35 @@ Measure nearest(const Side& surface, const Candidates& candidates, Index node, c
   }
   ClosestPoint closest;
   Index facet = no_index;
-  for (const Candidates::Entry& entry : candidates.of(node)) {
-    if (entry.distance - candidates.slack() > best_distance || entry.facet == held.facet || !surface.active(entry.facet)) continue;
+  const double clock = candidates.clock();
+  double least = best_distance;
+  const auto try_entry = [&](Candidates::Entry& entry) {
     const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
     const double distance = std::sqrt(other.squared_distance);
-    if (distance >= best_distance) continue;
-    if (held.facet != no_index && !admissible(signed_measure(surface, entry.facet, other, x), held, held_in_front)) continue;
+    entry.due = distance + clock;
+    least = std::min(least, distance);
+    const bool nearer = distance < best_distance || (distance == best_distance && facet != no_index && entry.facet < facet);
+    if (!nearer) return;
+    if (held.facet != no_index && !admissible(signed_measure(surface, entry.facet, other, x), held, held_in_front)) return;
     best_distance = distance;
     closest = other;
     facet = entry.facet;
+  };
+  const std::span<Candidates::Entry> entries = candidates.of(node);
+  Candidates::Entry* first = nullptr;
+  if (held.facet == no_index) {
+    // The likely answer first: most others are then left out unmeasured.
+    for (Candidates::Entry& entry : entries) {
+      if (surface.active(entry.facet) && (first == nullptr || entry.due < first->due)) first = &entry;
+    }
+    if (first != nullptr) try_entry(*first);
   }
+  for (Candidates::Entry& entry : entries) {
+    if (entry.due - clock > rounding * best_distance || entry.facet == held.facet || &entry == first || !surface.active(entry.facet))
+      continue;
+    try_entry(entry);
+  }
+  candidates.set_nearest_due(node, least + clock);
   return facet == no_index ? best : signed_measure(surface, facet, closest, x);
 }
 

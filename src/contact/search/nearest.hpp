@@ -26,7 +26,8 @@ struct HeldBy {
 /// Free node: the smallest |distance| among the candidates. Held node: the smallest |distance| among facets that push in
 /// about the same direction (n . n_held > -1/2), or any facet it is in front of while it is in front of its own: it is so
 /// never handed to the far side of a thin body.
-[[nodiscard]] Measure nearest(const Side& surface, const Candidates& candidates, Index node, const Vec3& x, const HeldBy& held);
+/// Distances that it measures go back into the node's list.
+[[nodiscard]] Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held);
 
 /// A swept hit: walks from `facet` over neighbours to the closest point that pushes the same way.
 [[nodiscard]] Measure descend_to_nearest(const Side& surface, Index facet, const Vec3& x);

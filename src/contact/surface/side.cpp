@@ -105,12 +105,6 @@ void Side::gather(std::span<const Vec3> x) {
   for (std::size_t s = 0; s < nodes_.size(); ++s) x_[s] = x[at(nodes_[s])];
 }
 
-Patch Side::patch(Index f) const {
-  const std::array<Index, 4>& local = surface_.local()[at(f)];
-  return {
-      {x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, surface_.facets()[at(f)].is_triangle(), borders_[at(f)]};
-}
-
 Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
   const Patch own = patch(f);
   const Vec3 normal = normal_at(own, point.s, point.t);

@@ -11,7 +11,7 @@
 
 namespace abut::contact {
 
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 class Side {
  public:
@@ -45,7 +45,10 @@ class Side {
   /// Copies the host's positions of this surface's nodes.
   void gather(std::span<const Vec3> x);
   [[nodiscard]] std::span<const Vec3> x() const { return x_; }
-  [[nodiscard]] Patch patch(Index f) const;
+  [[nodiscard]] Patch patch(Index f) const {
+    const std::array<Index, 4>& local = surface_.local()[at(f)];
+    return {{x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, local[2] == local[3], borders_[at(f)]};
+  }
 
   /// Unit normal of the surface at a closest point: of the facet on a face, the mean of two on an edge, the angle-weighted mean
   /// at a corner [Baerentzen, Aanaes 2005]. Its sign against x - point tells in front from behind.

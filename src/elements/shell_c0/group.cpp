@@ -7,6 +7,7 @@
 #include "elements/shell_common/setup.hpp"
 #include "elements/shell_common/shell_group.hpp"
 #include "simd/isa.hpp"
+#include "simd/math.hpp"
 
 namespace abut::elements {
 
@@ -74,7 +75,7 @@ class ShellC0Group final : public ShellGroup {
     ShellShares s;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 a = x[(k + 1) % 3] - x[k], b = x[(k + 2) % 3] - x[k];
-      const double angle = std::atan2(norm(cross(a, b)), dot(a, b));
+      const double angle = simd::angle_of(dot(a, b), norm(cross(a, b)));
       s.mass[k] = density * t * area * angle / std::numbers::pi;
     }
     s.inertia_per_mass = area / 4.5 + t * t / 12.0;

@@ -125,4 +125,34 @@ TEST(Math, EveryWidthGivesTheBitsOfTheScalar) {
   expect_same_bits<8>();
 }
 
+TEST(Math, AngleIsAccurateTo1e15RelativeInAllOctants) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> side(-1.0, 1.0), exponent(-12.0, 12.0);
+  long double worst = 0.0L;
+  for (int i = 0; i < 200000; ++i) {
+    const double x = side(random) * std::pow(10.0, exponent(random)), y = std::abs(side(random)) * std::pow(10.0, exponent(random));
+    worst =
+        std::max(worst, relative_error(abut::simd::angle_of(x, y), std::atan2(static_cast<long double>(y), static_cast<long double>(x))));
+  }
+  EXPECT_LT(worst, 1e-15L);
+  EXPECT_EQ(abut::simd::angle_of(1.0, 0.0), 0.0);
+  EXPECT_EQ(abut::simd::angle_of(0.0, 0.0), 0.0);
+  EXPECT_EQ(abut::simd::angle_of(0.0, 1.0), 0x1.921fb54442d18p+0);
+  EXPECT_EQ(abut::simd::angle_of(-1.0, 0.0), 0x1.921fb54442d18p+1);
+}
+
+TEST(Math, AngleHasTheSameBitsInEveryWidth) {
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> side(-1.0, 1.0);
+  for (int i = 0; i < 1000; ++i) {
+    Pack<4> x, y;
+    for (int l = 0; l < 4; ++l) {
+      x.r[l] = side(random);
+      y.r[l] = std::abs(side(random));
+    }
+    const Pack<4> a = abut::simd::angle_of(x, y);
+    for (int l = 0; l < 4; ++l) EXPECT_EQ(a.r[l], abut::simd::angle_of(x.r[l], y.r[l]));
+  }
+}
+
 }  // namespace
