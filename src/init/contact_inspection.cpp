@@ -65,30 +65,29 @@ struct ContactNode {
 };
 
 std::vector<ContactNode> contact_nodes(const contact::InspectionInput& input, std::span<const Vec3> x) {
-  std::vector<ContactNode> all;
+  std::vector<ContactNode> all(x.size(), ContactNode{no_index, {}, 0.0});
   for (const contact::InspectedSide& side : input.side) {
     for (const contact::Facet& f : side.facets) {
-      const Vec3 doubled = cross(x[at(f.node[2])] - x[at(f.node[0])], x[at(f.node[3])] - x[at(f.node[1])]);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(f.corners()); ++k)
-        all.push_back(
-            {f.node[k], f.is_triangle() ? cross(x[at(f.node[1])] - x[at(f.node[0])], x[at(f.node[2])] - x[at(f.node[0])]) : doubled, 0.0});
+      const Index last = f.is_triangle() ? f.node[2] : f.node[3];
+      const Vec3 doubled = cross(x[at(f.node[2])] - x[at(f.node[0])], x[at(last)] - x[at(f.node[1])]);
+      const double size = std::sqrt(0.5 * norm(doubled));
+      for (std::size_t k = 0; k < static_cast<std::size_t>(f.corners()); ++k) {
+        ContactNode& c = all[at(f.node[k])];
+        c.node = f.node[k];
+        c.normal += doubled;
+        c.size = std::max(c.size, size);
+      }
     }
     if (side.facets.empty()) {
-      for (const Index n : side.nodes) all.push_back({n, {}, 0.0});
+      for (const Index n : side.nodes) all[at(n)].node = n;
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const ContactNode& a, const ContactNode& b) { return a.node < b.node; });
-  std::vector<ContactNode> out;
-  for (const ContactNode& c : all) {
-    if (out.empty() || out.back().node != c.node) out.push_back({c.node, {}, 0.0});
-    out.back().normal += c.normal;
-    out.back().size = std::max(out.back().size, std::sqrt(0.5 * norm(c.normal)));
-  }
-  for (ContactNode& c : out) {
+  std::erase_if(all, [](const ContactNode& c) { return c.node == no_index; });
+  for (ContactNode& c : all) {
     const double length = norm(c.normal);
     if (length > 0.0) c.normal = c.normal / length;
   }
-  return out;
+  return all;
 }
 
 /// Directions in which nodes cannot move freely: an orthonormal set per node.

@@ -407,7 +407,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   } else {
     totals.potential += touch.pair.potential;
   }
-  const double normal_force = factor * touch.pair.magnitude;
+  double normal_force = factor * touch.pair.magnitude;
   Vec3 on_node = factor * touch.pair.on_node;
   for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
   after.damping = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace abut::contact {
 namespace {
@@ -18,18 +19,18 @@ struct Votes {
 
 double size_of(const Shape& s, Index f) { return std::sqrt(s.area(f)); }
 
-// Smallest distance of the centres of `a` to `b`.
-double smallest_distance(const Shape& a, const Shape& b, double best) {
-  for (Index i = 0; i < a.count(); ++i) {
-    const NearPoint p = b.nearest(a.centre(i), best);
-    if (p.found()) best = std::min(best, std::sqrt(p.squared));
-  }
-  return best;
+// Nearest points of `b` to the centres of `a`.
+std::vector<NearPoint> sights(const Shape& a, const Shape& b) {
+  std::vector<NearPoint> out(at(a.count()));
+  for (Index i = 0; i < a.count(); ++i) out[at(i)] = b.nearest(a.centre(i), 1e150);
+  return out;
 }
 
 class Looker {
  public:
-  Looker(const Shape& own, const Shape& other, double reach) : own_(own), other_(other), reach_(reach), votes_(at(own.count())) {
+  /// @param out  nearest points of the other side to the own centres; `in` the reverse
+  Looker(const Shape& own, const Shape& other, std::span<const NearPoint> out, std::span<const NearPoint> in, double reach)
+      : own_(own), other_(other), out_(out), in_(in), reach_(reach), votes_(at(own.count())) {
     views_.overlaps.assign(at(own.count()), 0);
     views_.alike.assign(at(own.count()), 0);
   }
@@ -51,6 +52,7 @@ class Looker {
  private:
   const Shape& own_;
   const Shape& other_;
+  std::span<const NearPoint> out_, in_;
   double reach_;
   std::vector<Votes> votes_;
   Views views_;
@@ -59,16 +61,16 @@ class Looker {
   void from_own(Index f) {
     if (squared_norm(own_.normal(f)) == 0.0) return;
     const Vec3 centre = own_.centre(f);
-    const NearPoint p = other_.nearest(centre, reach_);
-    if (!p.found() || own_.hides(centre, p.point, f)) return;
+    const NearPoint& p = out_[at(f)];
+    if (p.squared > reach_ * reach_ || own_.hides(centre, p.point, f)) return;
     vote(f, p.point - centre, p.item);
   }
 
   // The centre of a facet of the other side (or a held node) is seen from its nearest point on this one.
   void from_other(Index g) {
     const Vec3 centre = other_.centre(g);
-    const NearPoint p = own_.nearest(centre, reach_);
-    if (!p.found() || squared_norm(own_.normal(p.item)) == 0.0 || other_.hides(centre, p.point, g)) return;
+    const NearPoint& p = in_[at(g)];
+    if (p.squared > reach_ * reach_ || squared_norm(own_.normal(p.item)) == 0.0 || other_.hides(centre, p.point, g)) return;
     vote(p.item, centre - p.point, g);
   }
 
@@ -113,9 +115,12 @@ BothViews look(const std::array<Shape, 2>& shapes, double gap) {
     out.side[k].alike.assign(n, 0);
   }
   if (shapes[0].count() == 0 || shapes[1].count() == 0) return out;
-  double best = 1e150;
-  best = smallest_distance(shapes[0], shapes[1], best);
-  best = smallest_distance(shapes[1], shapes[0], best);
+  const std::array<std::vector<NearPoint>, 2> seen{sights(shapes[0], shapes[1]), sights(shapes[1], shapes[0])};
+  double squared = 1e300;
+  for (const auto& points : seen) {
+    for (const NearPoint& p : points) squared = std::min(squared, p.squared);
+  }
+  const double best = std::sqrt(squared);
   out.smallest = best;
   double size = 1e300;
   for (const Shape& s : shapes) {
@@ -123,7 +128,7 @@ BothViews look(const std::array<Shape, 2>& shapes, double gap) {
   }
   out.reach = best + std::max(gap, 2.0 * size);
   for (std::size_t k = 0; k < 2; ++k) {
-    if (!shapes[k].is_nodes()) out.side[k] = Looker(shapes[k], shapes[1 - k], out.reach).run();
+    if (!shapes[k].is_nodes()) out.side[k] = Looker(shapes[k], shapes[1 - k], seen[k], seen[1 - k], out.reach).run();
   }
   return out;
 }

@@ -34,6 +34,12 @@ class NearestTree {
     if (!nodes_.empty()) descend(0, from, limit, visit);
   }
 
+  /// Visits items whose leaf meets the box until `visit(item)` says true. @return whether it did
+  template <class Visit>
+  bool any(const Bounds& box, Visit&& visit) const {
+    return !nodes_.empty() && any_below(0, box, visit);
+  }
+
  private:
   struct Node {
     Bounds bounds;
@@ -72,6 +78,14 @@ class NearestTree {
     }
     nodes_[static_cast<std::size_t>(number)] = node;
     return number;
+  }
+
+  template <class Visit>
+  bool any_below(Index number, const Bounds& box, Visit& visit) const {
+    const Node& node = nodes_[static_cast<std::size_t>(number)];
+    if (!node.bounds.meets(box)) return false;
+    if (node.count == 0) return any_below(node.first, box, visit) || any_below(node.second, box, visit);
+    return std::any_of(items_.begin() + node.first, items_.begin() + node.first + node.count, visit);
   }
 
   template <class Visit>

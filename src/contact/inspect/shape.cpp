@@ -75,7 +75,6 @@ Shape::Shape(const InspectedSide& side, std::span<const Vec3> x) : side_(side), 
   measure();
   if (!is_nodes()) connect();
   tree_.build(box_);
-  nearest_tree_.build(box_);
 }
 
 void Shape::measure() {
@@ -231,7 +230,7 @@ int Shape::outward(Index f) const {
 
 NearPoint Shape::nearest(const Vec3& from, double radius) const {
   NearPoint best;
-  nearest_tree_.search(from, radius * radius, [&](Index i, double& limit) {
+  tree_.search(from, radius * radius, [&](Index i, double& limit) {
     if (squared_distance(box_[at(i)], from) > limit) return;
     const auto take = [&](const Vec3& point) {
       const double squared = squared_norm(point - from);
@@ -254,13 +253,11 @@ bool Shape::hides(const Vec3& a, const Vec3& b, Index except) const {
   Bounds query;
   query.include(a);
   query.include(b);
-  bool hidden = false;
-  tree_.query(query, [&](Index f) {
-    if (hidden || f == except) return;
-    hidden = crosses(a, b - a, corner(f, 0), corner(f, 1), corner(f, 2)) ||
-             (!facet(f).is_triangle() && crosses(a, b - a, corner(f, 0), corner(f, 2), corner(f, 3)));
+  return tree_.any(query, [&](Index f) {
+    if (f == except || !box_[at(f)].meets(query)) return false;
+    return crosses(a, b - a, corner(f, 0), corner(f, 1), corner(f, 2)) ||
+           (!facet(f).is_triangle() && crosses(a, b - a, corner(f, 0), corner(f, 2), corner(f, 3)));
   });
-  return hidden;
 }
 
 }  // namespace abut::contact

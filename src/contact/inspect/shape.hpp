@@ -79,8 +79,7 @@ class Shape {
   std::vector<Index> piece_;
   std::vector<std::uint8_t> turned_, one_sided_;
   std::vector<int> closed_;
-  BoxTree tree_;
-  NearestTree nearest_tree_;
+  NearestTree tree_;
   Bounds bounds_;
   double mean_size_ = 0.0;
 
