@@ -133,12 +133,15 @@ struct Sum {
   std::vector<Vec3> f;
   std::vector<double> k;
   int touching = 0;
+  double kinematic_step = 1e30;
 };
 Sum sum_of(Host& host, std::vector<Interface>& interfaces) {
-  Sum s{std::vector<Vec3>(host.x.size()), std::vector<double>(host.x.size()), 0};
+  Sum s{std::vector<Vec3>(host.x.size()), std::vector<double>(host.x.size()), 0, 1e30};
   for (Interface& i : interfaces) {
     i.search(host.state());
-    s.touching += i.evaluate(host.state(), s.f, s.k).in_contact;
+    const StepResult r = i.evaluate(host.state(), s.f, s.k);
+    s.touching += r.in_contact;
+    s.kinematic_step = std::min(s.kinematic_step, r.kinematic_step);
     i.commit(host.dt);
   }
   return s;
@@ -241,11 +244,13 @@ TEST(Stability, nodes_shared_by_three_interfaces) {
   std::printf("  three interfaces: bound / exact omega^2 from %.3f\n", tightest);
 }
 
-// Two free equal masses (a rigid facet, a node) pressed together and shaken, at the very limit h = sqrt(2 m/K) of the nodal sum: with any
-// viscosity the motion relative to each other dies out (a step too long makes it grow until the gap is crossed or it chatters for ever).
+// Two free equal masses (a rigid facet, a node) pressed together and shaken, with the usual h = 0.9 sqrt(2 m/K) of the nodal sum and growth
+// of 1.1: with any viscosity the motion relative to each other dies out (a step too long makes it grow until the gap is crossed or it
+// chatters for ever).
 TEST(Stability, dampers_are_in_the_step) {
   for (const double damping : {0.02, 0.2, 0.5, 1.0}) {
-    for (const bool two_sided : {false, true}) {
+    for (const int kind : {5, 7, 77}) {  // 77: the reference program's share of dampers, c/h
+      const bool two_sided = kind != 5;
       Host host;
       const auto facets = grid(host, 1, 1, -1, 1, -1, 1, test::flat, true, false, 0.25);
       const Index n = host.add({0, 0, 0.07}, 1.0, {two_sided ? 0.02 : 0.0, 0, -0.05});
@@ -256,24 +261,28 @@ TEST(Stability, dampers_are_in_the_step) {
         o.damping = damping;
         o.friction = 5.0;  // far from the limit: the viscous branch
         o.friction_viscosity = 1.0;
+        o.reference_step = kind == 77;
         all.push_back(Interface::both_sides({n}, Surface(facets), o));
-        set_stiffness(all[0], 1, 1, 2.0);
+        set_stiffness(all[0], 1, 1, 200.0);
       } else {
         Options o;
         o.gap = 0.1;
+        o.rules.law = Law::constant;
         o.damping = damping;
-        all.push_back(Interface::nodes_to_surface({n}, {10.0}, Surface(facets), o));
-        set_stiffness(all[0], 1, 1, 10.0);
+        all.push_back(Interface::nodes_to_surface({n}, {1000.0}, Surface(facets), o));
+        set_stiffness(all[0], 1, 1, 1000.0);
       }
-      const double press = 0.03;
+      const double press = 3.0;
       double largest = 0.0;
       constexpr int steps = 4000;
       for (int step = 0; step < steps; ++step) {
         Sum s = sum_of(host, all);
         double h = 0.2;
         for (std::size_t i = 0; i < host.x.size(); ++i) {
-          if (s.k[i] > 0.0) h = std::min(h, std::sqrt(2.0 * host.m[i] / s.k[i]));
+          if (s.k[i] > 0.0) h = std::min(h, 0.9 * std::sqrt(2.0 * host.m[i] / s.k[i]));
         }
+        h = std::min(h, s.kinematic_step);
+        if (host.dt > 0.0) h = std::min(h, 1.1 * host.dt);
         s.f[4].z -= press;
         Vec3 on_facet{0, 0, press};
         for (std::size_t i = 0; i < 4; ++i) on_facet += s.f[i];
@@ -290,7 +299,11 @@ TEST(Stability, dampers_are_in_the_step) {
         const Vec3 relative = host.v[4] - mean;
         if (step > steps - 100) largest = std::max(largest, two_sided ? norm(relative) : std::abs(relative.z));
       }
-      EXPECT_LT(largest, 1e-3 * 0.05) << damping << (two_sided ? " TYPE7" : " TYPE5");
+      if (kind == 77) {
+        if (damping == 1.0) { EXPECT_GT(largest, 1.0); }  // why abut has its own share
+      } else {
+        EXPECT_LT(largest, 1e-3 * 0.05) << damping << " TYPE" << kind;
+      }
     }
   }
 }
