@@ -97,7 +97,8 @@ contact::FrictionFilter filter_of(const model::Interface& card, const Profile& p
   return {};
 }
 
-contact::Options make_options(const model::Model& model, const model::Interface& card, const Profile& profile, std::optional<contact::Law> law) {
+contact::Options make_options(const model::Model& model, const model::Interface& card, const Profile& profile,
+                              std::optional<contact::Law> law) {
   contact::Options o;
   o.stiffness_scale = card.stfac;
   o.friction = card.friction;
@@ -274,6 +275,7 @@ contact::BothSidesOptions both_sides_options(const model::Model& model, const mo
   o.birth = window_of(model, card).birth;
   o.death = window_of(model, card).death;
   o.reference_step = profile.reference_contact;
+  o.all_pieces = profile.reference_contact;
   const model::Controls& control = model.controls;
   o.step_minimum = t7.dt_min;
   if (o.step_minimum == 0.0 && control.contact_action == model::StepControl::Action::remove) o.step_minimum = control.contact_minimum;
@@ -534,9 +536,8 @@ void settle_initial_penetrations(model::Model& model, Diagnostics& findings) {
 }
 
 void update_erosion(const model::Model& model, std::span<RunInterface> interfaces, const std::function<bool(const ElementRef&)>& alive) {
-  if (std::none_of(interfaces.begin(), interfaces.end(), [&](const RunInterface& r) {
-        return model.interfaces[static_cast<std::size_t>(r.model_index)].idel != 0;
-      })) {
+  if (std::none_of(interfaces.begin(), interfaces.end(),
+                   [&](const RunInterface& r) { return model.interfaces[static_cast<std::size_t>(r.model_index)].idel != 0; })) {
     return;
   }
   const std::vector<std::uint8_t> carried = carried_nodes(model, alive);

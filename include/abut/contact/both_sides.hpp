@@ -42,6 +42,10 @@ struct BothSidesOptions {
   /// bodies stable (forces at t^n are made of speeds at n - 1/2: h <= 2/lambda(C)).
   bool reference_step = false;
 
+  /// Geometry of quadrilaterals: false, the nearest of their four triangles (the force is the gradient of the stored energy); true, the
+  /// reference program's weighted mean over the triangles within reach, with its hourglass-free distribution.
+  bool all_pieces = false;
+
   [[nodiscard]] bool rubs() const { return friction > 0.0 || friction_law.model != FrictionLaw::Model::coulomb; }
 };
 

@@ -65,7 +65,7 @@ struct Options {
   /// Normal viscosity as a fraction of critical of the pair; 0 (as in the theory) to 1. It never pulls.
   double damping = 0.0;
   Initial initial = Initial::keep;
-  double depth_limit = 0.0;       ///< how far behind a facet a node is still held when first met; 0: from facet size
+  double depth_limit = 0.0;  ///< how far behind a facet a node is still held when first met; 0: from facet size
   Rules rules;
 
   /// Some coefficient is not zero.

@@ -110,11 +110,11 @@ double BothSides::pair_stiffness(Index node, Index facet) const {
   return std::clamp(k, options_.stiffness_min, options_.stiffness_max);
 }
 
-BothSides::Met BothSides::meet(const Side& held, const Side& surface, Index node, Index facet, double gap) {
+BothSides::Met BothSides::meet(const Side& held, const Side& surface, Index node, Index facet, double gap) const {
   const auto& corner = surface.surface().local()[at(facet)];
   std::array<Vec3, 4> x;
   for (std::size_t k = 0; k < 4; ++k) x[k] = surface.x()[at(corner[k])];
-  return {both_sides_contact(held.x()[at(node)], x, surface.surface().facets()[at(facet)].is_triangle(), gap), gap};
+  return {both_sides_contact(held.x()[at(node)], x, surface.surface().facets()[at(facet)].is_triangle(), gap, options_.all_pieces), gap};
 }
 
 std::span<const Index> BothSides::facets_of(const Candidates& candidates, Index node, std::vector<Index>& scratch) const {
@@ -157,7 +157,7 @@ std::vector<Projection> BothSides::projections(std::span<const Vec3> x, bool mov
     for (const Index facet : facets_of(candidates, node, scratch)) {
       const Met met = meet(held, surface, node, facet, pair_gap(node, facet));
       if (met.contact.penetration <= 0.0) continue;
-      const Vec3 by = (hair * met.contact.penetration) * met.contact.normal;
+      const Vec3 by = (hair * met.contact.penetration) * met.contact.away;
       const auto largest = [&move](Index n, const Vec3& candidate) {
         if (squared_norm(candidate) > squared_norm(move[at(n)])) move[at(n)] = candidate;
       };
@@ -271,7 +271,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   if (options_.rubs()) pair.friction = friction_of(host, old, pair, c.normal, v, vn, pressing, law.critical, sums);
 
   const Vec3 normal = pressing * c.normal;
-  const std::array<double, 4> share = triangle ? c.weight : without_hourglass(c.weight);
+  const std::array<double, 4> share = triangle || !options_.all_pieces ? c.weight : without_hourglass(c.weight);
   const Index own = held_own_[at(node)];
   normal_[at(own)] += normal;
   tangential_[at(own)] -= pair.friction;
@@ -318,8 +318,7 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
       if (gone_[at(node)] != 0 || !held_.node_active(node)) continue;
       bool touches = false;
       for (const Index facet : facets_of(candidates_, node, scratch_)) {
-        while (next < previous_.size() &&
-               (previous_[next].node < node || (previous_[next].node == node && previous_[next].facet < facet)))
+        while (next < previous_.size() && (previous_[next].node < node || (previous_[next].node == node && previous_[next].facet < facet)))
           let_go(previous_[next++]);
         const bool known = next < previous_.size() && previous_[next].node == node && previous_[next].facet == facet;
         const std::size_t count = pairs_.size();
@@ -339,10 +338,10 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
     }
   }
   if (!started_) initial_elastic_ = sums.elastic;
-  started_ = true;
   friction_work_ += sums.friction_work;
   damping_work_ += sums.damping_work;
   contact_work_ += discrete_work(host);
+  started_ = true;
   for (std::size_t i = 0; i < own_.size(); ++i) force[at(own_[i])] += normal_[i] + tangential_[i];
   result.elastic = sums.elastic;
   result.friction_work = friction_work_;
@@ -383,7 +382,7 @@ double BothSides::discrete_work(const HostState& host) {
   for (std::size_t i = 0; i < own_.size(); ++i) {
     const Vec3& x = host.x[at(own_[i])];
     const Vec3 f = normal_[i] + tangential_[i];
-    if (host.dt > 0.0) work += 0.5 * dot(f + old_force_[i], x - old_x_[i]);
+    if (started_) work += 0.5 * dot(f + old_force_[i], x - old_x_[i]);
     old_force_[i] = f;
     old_x_[i] = x;
   }

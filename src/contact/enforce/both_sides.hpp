@@ -30,8 +30,8 @@ class BothSides final : public InterfaceModel {
   /// A pair with p > 0 and what it carries to the next cycle.
   struct Pair {
     Index node = no_index, facet = no_index;
-    double offset = 0.0;  ///< p_0
-    Vec3 friction;        ///< F
+    double offset = 0.0;   ///< p_0
+    Vec3 friction;         ///< F
     double damping = 0.0;  ///< damping force along the normal
     double spring = 0.0;   ///< tangential stiffness of the incremental form
   };
@@ -46,7 +46,7 @@ class BothSides final : public InterfaceModel {
   };
 
   [[nodiscard]] bool variable_gap() const { return !options_.node_gap.empty(); }
-  [[nodiscard]] static Met meet(const Side& held, const Side& surface, Index node, Index facet, double gap);
+  [[nodiscard]] Met meet(const Side& held, const Side& surface, Index node, Index facet, double gap) const;
   /// Facets that the node can meet: listed, active, not its own; ascending.
   [[nodiscard]] std::span<const Index> facets_of(const Candidates& candidates, Index node, std::vector<Index>& scratch) const;
   [[nodiscard]] double pair_stiffness(Index node, Index facet) const;
@@ -74,8 +74,8 @@ class BothSides final : public InterfaceModel {
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
   std::vector<Index> in_contact_, scratch_;
-  std::vector<std::uint8_t> off_;                              // #F: without stiffness for good (drop_facets)
-  double widest_ = 0.0, narrowest_ = 0.0;                      // largest gap of a facet; smallest gap of any pair
+  std::vector<std::uint8_t> off_;          // #F: without stiffness for good (drop_facets)
+  double widest_ = 0.0, narrowest_ = 0.0;  // largest gap of a facet; smallest gap of any pair
   bool started_ = false, stale_ = true;
   double initial_elastic_ = 0.0;
   double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0;

@@ -53,46 +53,41 @@ Closest closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
 
 }  // namespace
 
-BothSidesContact both_sides_contact(const Vec3& node, const std::array<Vec3, 4>& x, bool triangle, double gap) {
+BothSidesContact both_sides_contact(const Vec3& node, const std::array<Vec3, 4>& x, bool triangle, double gap, bool all_pieces) {
   BothSidesContact out;
-  Vec3 direction;
-  const auto add = [&](const Closest& at, double& p) {
+  const Vec3 c = triangle ? x[2] : 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  Vec3 direction, nearest;
+  std::array<double, 4> sum{};
+  for (std::size_t i = 0; i < (triangle ? 1u : 4u); ++i) {
+    const std::size_t j = (i + 1) % 4;
+    const Closest at = closest_on_triangle(node, c, x[i], x[j]);
     const Vec3 r = node - at.point;
     const double d = norm(r);
-    p = std::max(0.0, gap - d);
-    // A node on the facet itself has no direction: the facet's normal decides below.
-    if (p > 0.0 && d > 0.0) direction += (p / d) * r;
-    out.penetration = std::max(out.penetration, p);
-  };
-  if (triangle) {
-    double p = 0.0;
-    const Closest at = closest_on_triangle(node, x[2], x[0], x[1]);
-    add(at, p);
-    if (p <= 0.0) return out;
-    out.weight = {at.weight[1], at.weight[2], at.weight[0], 0.0};
-  } else {
-    const Vec3 c = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-    double centre = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t j = (i + 1) % 4;
-      double p = 0.0;
-      const Closest at = closest_on_triangle(node, c, x[i], x[j]);
-      add(at, p);
-      out.weight[i] += p * at.weight[1];
-      out.weight[j] += p * at.weight[2];
-      centre += 0.25 * p * at.weight[0];
+    const double p = gap - d;
+    if (p <= 0.0) continue;
+    std::array<double, 4> weight{};
+    weight[i] += at.weight[1];
+    weight[j] += at.weight[2];
+    if (triangle) weight[2] += at.weight[0];
+    for (std::size_t k = 0; !triangle && k < 4; ++k) weight[k] += 0.25 * at.weight[0];
+    if (p > out.penetration) {
+      out.penetration = p;
+      out.weight = weight;
+      nearest = r;
     }
-    if (out.penetration <= 0.0) return out;
-    double sum = 0.0;
-    for (double& w : out.weight) sum += (w += centre);
-    for (double& w : out.weight) w /= sum;
+    if (d > 0.0) direction += (p / d) * r;
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += p * weight[k];
   }
-  const double length = norm(direction);
-  if (length > 0.0) {
-    out.normal = direction / length;
-  } else {
-    out.normal = normalized(triangle ? cross(x[1] - x[0], x[2] - x[0]) : cross(x[2] - x[0], x[3] - x[1]));
-  }
+  if (out.penetration <= 0.0) return out;
+  // A node on the facet itself has no direction: the facet's normal decides.
+  const Vec3 facet_normal = normalized(triangle ? cross(x[1] - x[0], x[2] - x[0]) : cross(x[2] - x[0], x[3] - x[1]));
+  const auto unit = [&facet_normal](const Vec3& v) { return squared_norm(v) > 0.0 ? v / norm(v) : facet_normal; };
+  out.away = unit(nearest);
+  out.normal = out.away;
+  if (!all_pieces || triangle) return out;
+  out.normal = unit(direction);
+  const double total = sum[0] + sum[1] + sum[2] + sum[3];
+  for (std::size_t k = 0; k < 4; ++k) out.weight[k] = sum[k] / total;
   return out;
 }
 

@@ -35,32 +35,37 @@ Interface interface_of(Index node, const std::vector<Facet>& facets, const BothS
   return i;
 }
 
-// The stored energy of a triangle is a potential of the forces: over its face, beyond an edge, beyond a corner, on both sides.
+// The stored energy is a potential of the forces: over faces of triangles and quadrilaterals (flat, warped), beyond an edge, beyond a
+// corner, on both sides.
 TEST(BothSides, force_is_minus_the_gradient_of_the_stored_energy) {
   BothSidesOptions o;
   o.gap = 0.3;
   o.damping = 0.0;
   double worst = 0.0;
   for (const Vec3 at : {Vec3{0.4, 0.3, 0.15}, Vec3{0.4, 0.3, -0.1}, Vec3{0.5, -0.1, 0.1}, Vec3{-0.1, -0.1, 0.1}, Vec3{0.8, 0.6, -0.05}}) {
-    Host host;
-    add_triangle(host);
-    const Index n = host.add(at, 1.0);
-    const auto energy = [&](const std::vector<Vec3>& x) {
-      Host probe = host;
-      probe.x = x;
-      Interface i = interface_of(n, one_triangle, o, 7.0);
-      return probe.contact(i).elastic;
-    };
-    Interface i = interface_of(n, one_triangle, o, 7.0);
-    ASSERT_EQ(host.contact(i).in_contact, 1);
-    for (std::size_t c = 0; c < 12; ++c) {
-      const double d = 1e-6;
-      std::vector<Vec3> plus = host.x, minus = host.x;
-      plus[c / 3][static_cast<int>(c % 3)] += d;
-      minus[c / 3][static_cast<int>(c % 3)] -= d;
-      const double slope = (energy(plus) - energy(minus)) / (2 * d);
-      worst = std::max(worst, std::abs(slope + host.f[c / 3][static_cast<int>(c % 3)]));
-      EXPECT_NEAR(-slope, host.f[c / 3][static_cast<int>(c % 3)], 2e-8) << "node " << c / 3;
+    for (const bool quad : {false, true}) {
+      Host host;
+      add_triangle(host);
+      if (quad) host.x[2] = {0.9, 1.0, 0.1}, host.add({-0.1, 0.9, 0.0}, 1.0);
+      const std::vector<Facet>& facet = quad ? one_quad : one_triangle;
+      const Index n = host.add(at, 1.0);
+      const auto energy = [&](const std::vector<Vec3>& x) {
+        Host probe = host;
+        probe.x = x;
+        Interface i = interface_of(n, facet, o, 7.0);
+        return probe.contact(i).elastic;
+      };
+      Interface i = interface_of(n, facet, o, 7.0);
+      ASSERT_EQ(host.contact(i).in_contact, 1);
+      for (std::size_t c = 0; c < 3 * host.x.size(); ++c) {
+        const double d = 1e-6;
+        std::vector<Vec3> plus = host.x, minus = host.x;
+        plus[c / 3][static_cast<int>(c % 3)] += d;
+        minus[c / 3][static_cast<int>(c % 3)] -= d;
+        const double slope = (energy(plus) - energy(minus)) / (2 * d);
+        worst = std::max(worst, std::abs(slope + host.f[c / 3][static_cast<int>(c % 3)]));
+        EXPECT_NEAR(-slope, host.f[c / 3][static_cast<int>(c % 3)], 2e-8) << "node " << c / 3;
+      }
     }
   }
   std::printf("  worst difference %.1e\n", worst);
@@ -103,6 +108,7 @@ TEST(BothSides, keeps_momentum) {
       o.gap = 0.3;
       o.friction = 0.4;
       o.friction_form = form;
+      o.all_pieces = trial % 2 == 0;
       Interface i = interface_of(n, one_quad, o, 3.0);
       host.dt = host.before = 1e-3;
       touched += host.contact(i).in_contact;
@@ -197,10 +203,10 @@ TEST(BothSides, incremental_friction_sticks_then_slips) {
     x[4].x += 1e-3;
     slid += 1e-3;
     host.place(i, x, 0.1);
-    const double limit = 0.25 * std::hypot(host.f[4].z, 0.0);
+    const double limit = 0.25 * host.f[4].z;
     const double size = std::abs(host.last.tangential_force.x);
     if (slid < 0.02) { EXPECT_NEAR(size, 10.0 * slid, 0.02 * 10.0 * slid) << step; }
-    if (slid > 0.05) { EXPECT_NEAR(size, limit, 0.02 * limit) << step; }
+    if (slid > 0.05) { EXPECT_NEAR(size, limit, 1e-12 * limit) << step; }
     EXPECT_GE(host.last.friction_work, fw);
     fw = host.last.friction_work;
   }
@@ -229,10 +235,9 @@ TEST(BothSides, initial_offset_relaxes) {
   for (const bool margin : {false, true}) {
     Host host;
     add_quad(host, 0.0);
-    host.add({0, 0, 0.12}, 1.0);
+    host.add({0, 0, 0.12}, 0.0);  // no mass: no damping
     BothSidesOptions o;
     o.gap = 0.2;
-    o.damping = 0.0;
     o.initial = margin ? BothSidesOptions::Initial::offset_with_margin : BothSidesOptions::Initial::offset;
     Interface i = interface_of(4, one_quad, o, 10.0);
     std::vector<Vec3> x = host.x;
@@ -307,9 +312,7 @@ TEST(BothSides, projections_take_penetrations_away) {
       EXPECT_NEAR(norm(m.by), 0.08, 1e-9);
       host.x[static_cast<std::size_t>(m.node)] += m.by;
     }
-    if (surface) {  // all corners go along: the facet moves as it is
-      EXPECT_EQ(host.contact(i).in_contact, 0);
-    }
+    EXPECT_EQ(host.contact(i).in_contact, 0);
   }
 }
 

@@ -31,7 +31,8 @@ TEST(FrictionLaw, closed_forms) {
   const std::array<double, 6> c{0.11, -0.3, 0.02, 0.004, 0.05, -0.8};
   using M = FrictionLaw::Model;
   EXPECT_DOUBLE_EQ(friction_coefficient({M::coulomb, c}, f, p, v), 0.2);
-  EXPECT_NEAR(friction_coefficient({M::polynomial, c}, f, p, v), f + c[0] * p + c[1] * v + c[2] * p * v + c[3] * p * p + c[4] * v * v, 1e-15);
+  EXPECT_NEAR(friction_coefficient({M::polynomial, c}, f, p, v), f + c[0] * p + c[1] * v + c[2] * p * v + c[3] * p * p + c[4] * v * v,
+              1e-15);
   EXPECT_NEAR(friction_coefficient({M::darmstadt, c}, f, p, v),
               f + c[0] * std::exp(c[1] * v) * p * p + c[2] * std::exp(c[3] * v) * p + c[4] * std::exp(c[5] * v), 1e-14);
   EXPECT_NEAR(friction_coefficient({M::exponential, {0.4, 1.3}}, f, p, v), 0.4 + (f - 0.4) * std::exp(-1.3 * v), 1e-15);
@@ -217,8 +218,8 @@ TEST(Damping, takes_what_it_books) {
       Options o;
       o.gap = gap;
       o.damping = share;
-      Interface i = Interface::nodes_to_surface({n}, {200.0}, Surface(facets), o);
-      set_stiffness(i, 1, facets.size(), 200.0);
+      Interface i = Interface::nodes_to_surface({n}, {2000.0}, Surface(facets), o);
+      set_stiffness(i, 1, facets.size(), 2000.0);
       double work = 0.0;
       for (int s = 0; s < 6000; ++s) {
         host.step(i, 2e-4);
@@ -260,7 +261,8 @@ TEST(Damping, restitution_is_the_closed_form) {
 TEST(Erosion, nodes_can_outlive_their_facets) {
   Host host;
   const auto lower = grid(host, 1, 1, -1, 1, -1, 1, flat);
-  const auto upper = grid(host, 1, 1, -0.5, 0.5, -0.5, 0.5, [](double, double) { return -0.01; }, false);
+  const auto upper = grid(
+      host, 1, 1, -0.5, 0.5, -0.5, 0.5, [](double, double) { return -0.01; }, false);
   const auto make = [&] {
     Interface i = Interface::two_surfaces(Surface(lower), Surface(upper), {});
     set_stiffness(i, 0, 1, 4.0);
@@ -278,6 +280,37 @@ TEST(Erosion, nodes_can_outlive_their_facets) {
   EXPECT_DOUBLE_EQ(host.last.normal_force.z, force);
   c.set_surface(1, {{}, {}, whole, none});
   EXPECT_EQ(host.contact(c).in_contact, 0);
+}
+
+// The normal force of a pair has no moment; friction acts at the node and at the contact point, |d| apart: its moment is |d| |Ft|, at
+// most Gap mu |Fn| in front. This is the whole error of angular momentum, and it goes with the gap.
+TEST(FrictionArm, is_the_only_moment_of_a_pair) {
+  for (const double gap : {0.2, 0.02, 0.002}) {
+    Host host;
+    const auto facets = grid(
+        host, 1, 1, -1, 1, -1, 1, [](double x, double y) { return 0.05 * x * y; }, true, false, 1.0);
+    const Index n = host.add({0.3, -0.4, -0.006 + 0.5 * gap}, 1.0, {0.7, 0.2, 0.0});
+    Options o;
+    o.gap = gap;
+    o.friction = 0.4;
+    Interface i = Interface::nodes_to_surface({n}, {50.0}, Surface(facets), o);
+    set_stiffness(i, 1, facets.size(), 50.0);
+    host.dt = host.before = 1e-2;
+    for (int step = 0; step < 3; ++step) host.contact(i);
+    std::vector<Vec3> normal(5), tangential(5);
+    i.add_nodal_forces(normal, tangential);
+    Vec3 m_normal{}, m_tangential{};
+    for (std::size_t k = 0; k < 5; ++k) {
+      m_normal += cross(host.x[k], normal[k]);
+      m_tangential += cross(host.x[k], tangential[k]);
+    }
+    const double fn = norm(normal[4]), ft = norm(tangential[4]);
+    ASSERT_GT(ft, 0.0);
+    EXPECT_LT(norm(m_normal), 1e-15 * fn);
+    EXPECT_LE(norm(m_tangential), gap * 0.4 * fn);
+    EXPECT_NEAR(norm(m_tangential), (gap - host.last.largest_penetration) * ft, 1e-12 * ft);
+    std::printf("  gap %.3f: moment of friction / (Ft x half side) %.1e\n", gap, norm(m_tangential) / ft);
+  }
 }
 
 }  // namespace

@@ -128,5 +128,185 @@ TEST(Stability, coming_contact_is_announced) {
   EXPECT_EQ(host.last.kinematic_step, 1e30);
 }
 
+/// Forces and nodal stiffness of several interfaces on one host.
+struct Sum {
+  std::vector<Vec3> f;
+  std::vector<double> k;
+  int touching = 0;
+  double kinematic_step = 1e30;
+};
+Sum sum_of(Host& host, std::vector<Interface>& interfaces) {
+  Sum s{std::vector<Vec3>(host.x.size()), std::vector<double>(host.x.size()), 0, 1e30};
+  for (Interface& i : interfaces) {
+    i.search(host.state());
+    const StepResult r = i.evaluate(host.state(), s.f, s.k);
+    s.touching += r.in_contact;
+    s.kinematic_step = std::min(s.kinematic_step, r.kinematic_step);
+    i.commit(host.dt);
+  }
+  return s;
+}
+
+// Bound over the exact largest omega^2 of everything that acts on the host; > 1 is safe.
+double bound_over_exact(Host host, const std::function<std::vector<Interface>()>& make, double delta, int& touching) {
+  std::vector<Interface> base = make();
+  const Sum now = sum_of(host, base);
+  touching = now.touching;
+  const auto force = [&](const std::vector<Vec3>& x) {
+    std::vector<Interface> fresh = make();
+    for (std::size_t i = 0; i < fresh.size(); ++i) fresh[i].restore(base[i].history());
+    Host probe = host;
+    probe.x = x;
+    return sum_of(probe, fresh).f;
+  };
+  const double exact = largest_eigenvalue(force, host, delta);
+  double bound = 0.0;
+  for (std::size_t i = 0; i < host.x.size(); ++i) bound = std::max(bound, 2.0 * now.k[i] / host.m[i]);
+  return bound / exact;
+}
+
+// TYPE7 at every penetration, flat and rough plates of free nodes.
+TEST(Stability, type7_stiffness_bounds_the_largest_eigenvalue) {
+  double tightest = 1e300, loosest = 0.0;
+  for (const double share : {0.02, 0.3, 0.6, 0.9}) {
+    for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+      Host host;
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<double> u(0.0, 1.0);
+      const double gap = 0.1, roughness = seed == 1 ? 0.0 : 0.1 * gap * (1 - share);
+      const auto rough = [&](double, double) { return roughness * (u(random) - 0.5); };
+      const auto lower = grid(host, 3, 3, -1.5, 1.5, -1.5, 1.5, rough, true, seed == 3);
+      const auto first = static_cast<Index>(host.x.size());
+      grid(
+          host, 2, 2, -0.9, 1.0, -1.0, 0.9, [&](double x, double y) { return gap * (1 - share) + rough(x, y); }, false);
+      std::vector<Index> nodes;
+      for (Index n = first; n < static_cast<Index>(host.x.size()); ++n) nodes.push_back(n);
+      for (double& m : host.m) m = 0.5 + u(random);
+      host.dt = host.before = 1e-6;
+      BothSidesOptions o;
+      o.gap = gap;
+      o.damping = 0.0;
+      const auto make = [&] {
+        std::vector<Interface> all;
+        all.push_back(Interface::both_sides(nodes, Surface(lower), o));
+        set_stiffness(all[0], 1, lower.size(), 2.0);
+        return all;
+      };
+      int touching = 0;
+      const double ratio = bound_over_exact(host, make, 1e-8, touching);
+      ASSERT_GT(touching, 0);
+      EXPECT_GE(ratio, 1.0) << share << " seed " << seed;
+      tightest = std::min(tightest, ratio);
+      loosest = std::max(loosest, ratio);
+    }
+  }
+  std::printf("  TYPE7 bound / exact omega^2: %.3f to %.3f\n", tightest, loosest);
+}
+
+// The same nodes in a TYPE3, a TYPE5 and a TYPE7: the sum of what they hand over bounds what they do together.
+TEST(Stability, nodes_shared_by_three_interfaces) {
+  double tightest = 1e300;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    Host host;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(0.0, 1.0);
+    const auto rough = [&](double, double) { return 0.004 * (u(random) - 0.5); };
+    const auto middle = grid(host, 2, 2, -1, 1, -1, 1, rough);
+    const auto above = grid(
+        host, 2, 2, -0.9, 1.1, -1, 0.9, [&](double x, double y) { return 0.06 + rough(x, y); }, false);
+    const auto below = grid(host, 2, 2, -1.1, 0.9, -0.9, 1, [&](double x, double y) { return -0.05 + rough(x, y); });
+    std::vector<Index> nodes;
+    for (Index n = 0; n < 9; ++n) nodes.push_back(n);
+    for (double& m : host.m) m = 0.5 + u(random);
+    host.dt = host.before = 1e-6;
+    Options o;
+    o.gap = 0.1;
+    BothSidesOptions both;
+    both.gap = 0.1;
+    both.damping = 0.0;
+    const auto make = [&] {
+      std::vector<Interface> all;
+      all.push_back(Interface::two_surfaces(Surface(middle), Surface(above), o));
+      all.push_back(Interface::nodes_to_surface(nodes, std::vector<double>(9, 2.0), Surface(below), o));
+      all.push_back(Interface::both_sides(nodes, Surface(above), both));
+      set_stiffness(all[0], 0, middle.size(), 1.5);
+      set_stiffness(all[0], 1, above.size(), 1.0);
+      set_stiffness(all[1], 1, below.size(), 3.0);
+      set_stiffness(all[2], 1, above.size(), 0.2);
+      return all;
+    };
+    int touching = 0;
+    const double ratio = bound_over_exact(host, make, 1e-8, touching);
+    EXPECT_GE(touching, 20);
+    EXPECT_GE(ratio, 1.0) << seed;
+    tightest = std::min(tightest, ratio);
+  }
+  std::printf("  three interfaces: bound / exact omega^2 from %.3f\n", tightest);
+}
+
+// Two free equal masses (a rigid facet, a node) pressed together and shaken, with the usual h = 0.9 sqrt(2 m/K) of the nodal sum and growth
+// of 1.1: with any viscosity the motion relative to each other dies out (a step too long makes it grow until the gap is crossed or it
+// chatters for ever).
+TEST(Stability, dampers_are_in_the_step) {
+  for (const double damping : {0.02, 0.2, 0.5, 1.0}) {
+    for (const int kind : {5, 7, 77}) {  // 77: the reference program's share of dampers, c/h
+      const bool two_sided = kind != 5;
+      Host host;
+      const auto facets = grid(host, 1, 1, -1, 1, -1, 1, test::flat, true, false, 0.25);
+      const Index n = host.add({0, 0, 0.07}, 1.0, {two_sided ? 0.02 : 0.0, 0, -0.05});
+      std::vector<Interface> all;
+      if (two_sided) {
+        BothSidesOptions o;
+        o.gap = 0.1;
+        o.damping = damping;
+        o.friction = 5.0;  // far from the limit: the viscous branch
+        o.friction_viscosity = 1.0;
+        o.reference_step = kind == 77;
+        all.push_back(Interface::both_sides({n}, Surface(facets), o));
+        set_stiffness(all[0], 1, 1, 200.0);
+      } else {
+        Options o;
+        o.gap = 0.1;
+        o.rules.law = Law::constant;
+        o.damping = damping;
+        all.push_back(Interface::nodes_to_surface({n}, {1000.0}, Surface(facets), o));
+        set_stiffness(all[0], 1, 1, 1000.0);
+      }
+      const double press = 3.0;
+      double largest = 0.0;
+      constexpr int steps = 4000;
+      for (int step = 0; step < steps; ++step) {
+        Sum s = sum_of(host, all);
+        double h = 0.2;
+        for (std::size_t i = 0; i < host.x.size(); ++i) {
+          if (s.k[i] > 0.0) h = std::min(h, 0.9 * std::sqrt(2.0 * host.m[i] / s.k[i]));
+        }
+        h = std::min(h, s.kinematic_step);
+        if (host.dt > 0.0) h = std::min(h, 1.1 * host.dt);
+        s.f[4].z -= press;
+        Vec3 on_facet{0, 0, press};
+        for (std::size_t i = 0; i < 4; ++i) on_facet += s.f[i];
+        for (std::size_t i = 0; i < 4; ++i) s.f[i] = 0.25 * on_facet;
+        const double bar = 0.5 * (host.dt + h);
+        Vec3 mean{};
+        for (std::size_t i = 0; i < host.x.size(); ++i) {
+          host.v[i] += (bar / host.m[i]) * s.f[i];
+          host.x[i] += h * host.v[i];
+          if (i < 4) mean += 0.25 * host.v[i];
+        }
+        host.before = host.dt;
+        host.dt = h;
+        const Vec3 relative = host.v[4] - mean;
+        if (step > steps - 100) largest = std::max(largest, two_sided ? norm(relative) : std::abs(relative.z));
+      }
+      if (kind == 77) {
+        if (damping == 1.0) { EXPECT_GT(largest, 1.0); }  // why abut has its own share
+      } else {
+        EXPECT_LT(largest, 1e-3 * 0.05) << damping << " TYPE" << kind;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace abut::contact

@@ -1,9 +1,9 @@
 // Cards of TYPE5 and TYPE7 as interfaces: stiffness, gaps, sensors, moved nodes, erosion (numerics.md 7.2, 7.4.7, 7.7.1).
+#include "init/contact_setup.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "init/contact_setup.hpp"
 
 namespace abut::init {
 namespace {
@@ -118,7 +118,8 @@ TEST(Type7Setup, gap_rules) {
   // 3: nodes that are not on the main surface know no limit by the mesh.
   EXPECT_NEAR(force(h, 7, [](Plates& p) { p.t7.igap = 3, p.t7.mesh_size = 1e-3; }), law(0.08, 0.035, h), 1e-14);
   // No more than half of the shortest side.
-  EXPECT_NEAR(force(h, 6, [](Plates& p) { std::get<model::ShellProperty>(p.m.properties[0].data).thickness = 3.0; }), law(6.0, 0.5, h), 1e-12);
+  EXPECT_NEAR(force(h, 6, [](Plates& p) { std::get<model::ShellProperty>(p.m.properties[0].data).thickness = 3.0; }), law(6.0, 0.5, h),
+              1e-12);
   // The part's virtual thickness takes the place of the property's in gaps.
   EXPECT_NEAR(force(h, 6, [](Plates& p) { p.m.parts[0].contact_thickness = 0.06; }), law(0.04, 0.05, h), 1e-14);
 }
@@ -185,8 +186,8 @@ TEST(Erosion, held_nodes_leave_with_their_elements) {
     update_erosion(p.m, run, [](const model::ElementRef& e) { return e.index != 2; });
     EXPECT_EQ(p.force(run[0], 6) > 0.0, idel == -1);
     update_erosion(p.m, run, [](const model::ElementRef& e) { return e.index != 0; });
-    EXPECT_EQ(p.force(run[0], 6), 0.0);      // over the dead facet (Idel 1: never comes back)
-    EXPECT_GT(p.force(run[0], 7), 0.0);      // over the other
+    EXPECT_EQ(p.force(run[0], 6), 0.0);  // over the dead facet (Idel 1: never comes back)
+    EXPECT_GT(p.force(run[0], 7), 0.0);  // over the other
   }
 }
 
