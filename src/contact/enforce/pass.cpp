@@ -495,8 +495,9 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
       after.friction = {};
       after.tangential_stiffness = 0.0;
     }
+    if (!closest()) continue;
     const bool nothing = candidates_.of(i).empty();
-    if (closest() && (touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
+    if ((touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
       quiet_[at(i)] = nothing ? nothing_listed : in_front;
     }
   }
