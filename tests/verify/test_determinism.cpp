@@ -64,7 +64,7 @@ std::uint64_t hash_of(const Drop& drop, const abut::Profile& profile, int thread
   Recorder recorder;
   const abut::cycle::RunReport report = abut::cycle::run(drop.scene.model, options, recorder);
   EXPECT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished);
-  const abut::cycle::Sample& last = recorder.samples.back();
+  const abut::scenes::Sample& last = recorder.samples.back();
   EXPECT_GT(last.interfaces[0].in_contact, 100);  // the scene does what it is for
   EXPECT_GT(last.balance.fw, 0.0);
   return report.final_hash;
@@ -82,8 +82,8 @@ TEST(Determinism, OtherIdsGiveTheSamePhysicsToRounding) {
   const Drop one(false), other(true);
   abut::cycle::RunOptions options;
   Recorder a({one.middle, one.falling}), b({other.middle, other.falling});
-  abut::cycle::run(one.scene.model, options, a);
-  abut::cycle::run(other.scene.model, options, b);
+  EXPECT_EQ(abut::cycle::run(one.scene.model, options, a).outcome.kind, abut::cycle::Outcome::Kind::finished);
+  EXPECT_EQ(abut::cycle::run(other.scene.model, options, b).outcome.kind, abut::cycle::Outcome::Kind::finished);
   const std::size_t cycles = std::min(a.samples.size(), b.samples.size());
   ASSERT_GT(cycles, 50u);
   const std::size_t n = cycles - 1;

@@ -66,7 +66,7 @@ class Forces {
   Eigen::VectorXd at(const Eigen::VectorXd& d, bool with_contact = true) {
     const std::size_t n = state.x.size();
     std::vector<Vec3> x(n), v(n), w(n), f(n), m(n), contact(n);
-    std::vector<double> k(n), kr(n);
+    std::vector<double> k(n);
     for (std::size_t i = 0; i < n; ++i) {
       const auto at = 6 * static_cast<Eigen::Index>(i);
       const Vec3 u{d[at], d[at + 1], d[at + 2]};
@@ -87,7 +87,12 @@ class Forces {
         ++s;
       }
     }
-    assembly_.sum(slots_, {f, m, k, kr}, pool_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const abut::elements::NodalSum sum = assembly_.sum(slots_.data(), i);
+      f[i] = sum.force;
+      m[i] = sum.moment;
+      k[i] = sum.stiffness;
+    }
     if (with_contact) {
       const std::vector<Vec3> rest(n);
       for (std::size_t i = 0; i < interfaces_.size(); ++i) {

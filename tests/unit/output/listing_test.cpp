@@ -44,7 +44,9 @@ class ListingTest : public ::testing::Test {
                 .interface_law = "constant",
                 .hash_every = 0,
                 .decks = {"decks/scene_0000.rad"},
-                .findings = {}};
+                .findings = {},
+                .contact = {},
+                .during = {}};
 };
 
 TEST_F(ListingTest, TheHeaderSaysWhatRunsAndWhatIsLeftOut) {
