@@ -270,6 +270,7 @@ void OneSided::restore(std::span<const std::byte> history) {
   in.get(friction_work_);
   in.get(damping_work_);
   for (std::size_t k = 0; k < 2; ++k) {
+    loads_[k].clear();  // an evaluation that was not committed leaves nothing behind
     in.get(loads_[k].work);
     in.get_all(loads_[k].force_before);
     in.get_all(loads_[k].x_before);
