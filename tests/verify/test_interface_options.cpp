@@ -230,7 +230,7 @@ TEST(InterfaceOptions, PtlimLimitsTheFrictionStress) {
   const double loose = slowed(5000.0).first;
   std::printf("[found] Ptlim: friction stress %.2f psi without (0.3 x %.1f), %.1f psi with 300, %.1f psi with 5000\n", coulomb, pressed,
               limited, loose);
-  EXPECT_NEAR(coulomb, 0.3 * pressed, 1e-6 * coulomb);
+  EXPECT_NEAR(coulomb, 0.3 * pressed, 1e-5 * coulomb);  // x and z parts: facets tilt a little
   EXPECT_NEAR(pressed, pressure, 0.02 * pressure);
   EXPECT_NEAR(loose, coulomb, 1e-9 * coulomb);
   EXPECT_NEAR(limited, 300.0, 0.02 * 300.0);
