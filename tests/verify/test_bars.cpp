@@ -132,8 +132,8 @@ Impact two_bars(const BarCase& b, abut::Profile profile = {}) {
 }
 
 void print(const char* what, const BarCase& b, const Impact& r) {
-  std::printf("[found] %s: s %.3g, gap %.3g, %d x %d x %d per bar: contact %.4f (spring theory %.4f), impulse %.5f (%.5f)\n", what, b.s, b.gap,
-              b.across, b.across, b.cells, r.end - r.start, theory(b).parting, r.impulse, theory(b).impulse);
+  std::printf("[found] %s: s %.3g, gap %.3g, %d x %d x %d per bar: contact %.4f (spring theory %.4f), impulse %.5f (%.5f)\n", what, b.s,
+              b.gap, b.across, b.across, b.cells, r.end - r.start, theory(b).parting, r.impulse, theory(b).impulse);
 }
 
 // T13, T17; 6.1: series stiffness of brick faces decides when penalty-coupled bars part.

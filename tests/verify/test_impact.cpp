@@ -35,9 +35,7 @@ struct Answer {
   double contact = 0.0, impulse = 0.0, mean_force = 0.0, rebound = 0.0;
 };
 
-Answer ideal(const Bar& b) {
-  return {b.round_trip(), 2.0 * b.mass() * b.speed, b.impedance() * b.speed, b.speed};
-}
+Answer ideal(const Bar& b) { return {b.round_trip(), 2.0 * b.mass() * b.speed, b.impedance() * b.speed, b.speed}; }
 
 /// Bar on a spring in front of a wall; rebound is the mean velocity that the impulse gives.
 Answer spring_theory(const Bar& b) {
@@ -114,8 +112,9 @@ Answer on_a_wall(const Bar& b, bool rigid_wall) {
   out.contact = last - first;
   out.mean_force = out.impulse / out.contact;
   out.rebound = m.mean_velocity(recorder.last_state);
-  std::printf("[found] bar on a wall, %s: s %.3g, gap 0, 1 x 1 x %d: contact %.4e s, impulse %.1f N s, mean force %.4e N, rebound %.4f m/s\n",
-              rigid_wall ? "/RWALL" : "TYPE3", b.s, b.cells, out.contact, out.impulse, out.mean_force, out.rebound);
+  std::printf(
+      "[found] bar on a wall, %s: s %.3g, gap 0, 1 x 1 x %d: contact %.4e s, impulse %.1f N s, mean force %.4e N, rebound %.4f m/s\n",
+      rigid_wall ? "/RWALL" : "TYPE3", b.s, b.cells, out.contact, out.impulse, out.mean_force, out.rebound);
   return out;
 }
 
@@ -180,7 +179,7 @@ TEST(BarOnAWall, MeetsTheIdealAnswerThroughARigidWall) {
 // no potential; the printed value says what that costs.
 struct Bounces {
   std::vector<double> begin, end;
-  double height = 0.0;   // of the bottom between the second and third impact
+  double height = 0.0;  // of the bottom between the second and third impact
   double worst_error = 0.0;
 };
 

@@ -204,8 +204,8 @@ Limits exact_limit(const model::Model& m, double delta, Index& touching) {
     const Eigen::VectorXd f = (forces.at(delta * motions[column]) - forces.at(-delta * motions[column])) / (2.0 * delta);
     // f(v) - f(-v): bulk viscosity of every element once, hourglass viscosity twice.
     const Eigen::VectorXd v = slow * motions[column];
-    const Eigen::VectorXd viscous = (forces.at_velocity(v) - forces.at_velocity(-v)) / slow -
-                                    (hourglass.at_velocity(v) - hourglass.at_velocity(-v)) / (2.0 * slow);
+    const Eigen::VectorXd viscous =
+        (forces.at_velocity(v) - forces.at_velocity(-v)) / slow - (hourglass.at_velocity(v) - hourglass.at_velocity(-v)) / (2.0 * slow);
     for (Eigen::Index r = 0; r < size; ++r) {
       damping(r, c) = -motions[static_cast<std::size_t>(r)].dot(viscous);
       stiffness(r, c) = -motions[static_cast<std::size_t>(r)].dot(f);
@@ -256,10 +256,10 @@ void check(const char* name, Scene& scene, double delta) {
   const Limits limits = exact_limit(scene.model, delta, touching);
   const double exact = limits.damped;
   const double step = longer.samples[1].dt;
-  std::printf("[found] step, %s: %d nodes in contact, step %.4e (first cycle %.4e), exact limit %.4e, ratio %.3f (first %.3f; to 2/omega_max "
-              "%.3f)\n",
-              name,
-              static_cast<int>(touching), step, first, exact, step / exact, first / exact, step / limits.undamped);
+  std::printf(
+      "[found] step, %s: %d nodes in contact, step %.4e (first cycle %.4e), exact limit %.4e, ratio %.3f (first %.3f; to 2/omega_max "
+      "%.3f)\n",
+      name, static_cast<int>(touching), step, first, exact, step / exact, first / exact, step / limits.undamped);
   EXPECT_GT(touching, 0);
   EXPECT_LE(step, exact);
   EXPECT_LE(first, exact);
@@ -280,7 +280,12 @@ TEST(Step, ShellOnShell) {
   const auto a = s.part(property, material);
   const auto b = s.part(property, material);
   s.shells(a, 4, 4, [](double u, double v) { return disturbed({0.04 * u, 0.04 * v, 0}, 5e-4); });
-  s.shells(b, 3, 3, [](double u, double v) { return disturbed({0.004 + 0.03 * u, 0.005 + 0.03 * v, 0.0004}, 5e-4); }, true);
+  s.shells(
+      b, 3, 3,
+      [](double u, double v) {
+        return disturbed({0.004 + 0.03 * u, 0.005 + 0.03 * v, 0.0004}, 5e-4);
+      },
+      true);
   s.contact(s.shell_surface(a), s.shell_surface(b), 0.2, 0.0, 0.0005);
   check("shell on shell, gap 0.5 mm, s 0.2", s, 1e-9);
 }
@@ -292,7 +297,12 @@ TEST(Step, ShellOnShellStiff) {
   const auto a = s.part(property, material);
   const auto b = s.part(property, material);
   s.shells(a, 4, 4, [](double u, double v) { return disturbed({0.04 * u, 0.04 * v, 0}, 5e-4); });
-  s.shells(b, 3, 3, [](double u, double v) { return disturbed({0.004 + 0.03 * u, 0.005 + 0.03 * v, 0.0002}, 5e-4); }, true);
+  s.shells(
+      b, 3, 3,
+      [](double u, double v) {
+        return disturbed({0.004 + 0.03 * u, 0.005 + 0.03 * v, 0.0002}, 5e-4);
+      },
+      true);
   s.contact(s.shell_surface(a), s.shell_surface(b), 1.0, 0.2, 0.0005);
   check("shell on shell, gap 0.5 mm, s 1, deep, friction", s, 1e-9);
 }
@@ -301,8 +311,8 @@ TEST(Step, BrickOnBrick) {
   Scene s("step");
   const auto material = s.elastic(density, young, 0.3);
   const auto property = s.solid_property();
-  const auto lower = s.block(s.part(property, material), {0, 0, -0.02}, {0.03, 0.03, 0.02}, {3, 3, 2},
-                             [](const Vec3& p) { return disturbed(p, 3e-4); });
+  const auto lower =
+      s.block(s.part(property, material), {0, 0, -0.02}, {0.03, 0.03, 0.02}, {3, 3, 2}, [](const Vec3& p) { return disturbed(p, 3e-4); });
   const auto upper = s.block(s.part(property, material), {0.004, 0.005, -1e-5}, {0.02, 0.02, 0.02}, {2, 2, 2},
                              [](const Vec3& p) { return disturbed(p, 3e-4); });
   s.contact(s.surface(lower, 2, true), s.surface(upper, 2, false));

@@ -435,7 +435,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     double limit = mu * normal_force;
     if (options_.shear_limit < 1e29 && !rules.reference_friction) {
       const double own_area = held.facet_count() > 0 ? held.tributary_area(i) : surface.facet_area(touch.facet);
-      limit = std::min(limit, options_.shear_limit * own_area);
+      // Two passes act on the same area: each may carry half of the stress.
+      limit = std::min(limit, (two_passes_ ? 0.5 : 1.0) * options_.shear_limit * own_area);
     }
     const Vec3 on_surface = rules.reference_friction
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
