@@ -2,7 +2,9 @@
 // of the deck's cards: scripts/determinism.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/recorder.hpp"
 #include "support/scene.hpp"
@@ -64,9 +66,10 @@ std::uint64_t hash_of(const Drop& drop, const abut::Profile& profile, int thread
   Recorder recorder;
   const abut::cycle::RunReport report = abut::cycle::run(drop.scene.model, options, recorder);
   EXPECT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished);
-  const abut::scenes::Sample& last = recorder.samples.back();
-  EXPECT_GT(last.interfaces[0].in_contact, 100);  // the scene does what it is for
-  EXPECT_GT(last.balance.fw, 0.0);
+  Index most = 0;  // the scene does what it is for
+  for (const abut::scenes::Sample& sample : recorder.samples) most = std::max(most, sample.interfaces[0].in_contact);
+  EXPECT_GT(most, 100);
+  EXPECT_GT(recorder.samples.back().balance.fw, 0.0);
   return report.final_hash;
 }
 
@@ -82,8 +85,10 @@ TEST(Determinism, OtherIdsGiveTheSamePhysicsToRounding) {
   const Drop one(false), other(true);
   abut::cycle::RunOptions options;
   Recorder a({one.middle, one.falling}), b({other.middle, other.falling});
-  EXPECT_EQ(abut::cycle::run(one.scene.model, options, a).outcome.kind, abut::cycle::Outcome::Kind::finished);
-  EXPECT_EQ(abut::cycle::run(other.scene.model, options, b).outcome.kind, abut::cycle::Outcome::Kind::finished);
+  for (const auto& [drop, recorder] : {std::pair(&one, &a), std::pair(&other, &b)}) {
+    const abut::cycle::RunReport report = abut::cycle::run(drop->scene.model, options, *recorder);
+    ASSERT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished);
+  }
   const std::size_t cycles = std::min(a.samples.size(), b.samples.size());
   ASSERT_GT(cycles, 50u);
   const std::size_t n = cycles - 1;
