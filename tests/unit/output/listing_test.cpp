@@ -46,7 +46,7 @@ class ListingTest : public ::testing::Test {
                 .decks = {"decks/scene_0000.rad"},
                 .findings = {},
                 .contact = {},
-                .during = {}};
+                .during = std::make_shared<RunFindings>()};
 };
 
 TEST_F(ListingTest, TheHeaderSaysWhatRunsAndWhatIsLeftOut) {
