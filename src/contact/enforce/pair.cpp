@@ -98,7 +98,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
     // Cross terms kappa' phi' and, in a strip, T'' phi: |T''| <= 8 and |T'| <= 1.54 in units of the strip.
     if (phi > 0.0) result.extra_tangent = norm(sideways) * law.force(p) / phi;
     if (t.value < 1.0) {
-      const double width = border_strip * std::sqrt(patch.triangle ? a11 : 4.0 * a11);
+      const double width = (1.0 - border_flat) * border_strip * std::sqrt(patch.triangle ? a11 : 4.0 * a11);
       if (width > 0.0) result.extra_tangent += pair * 8.0 * phi / (width * width);
     }
   }

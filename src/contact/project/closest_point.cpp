@@ -234,11 +234,13 @@ ClosestPoint closest_on_triangle(const Patch& patch, const Vec3& x) {
 
 // One strip: u = overshoot / width in [0, 1] -> (1 - u^2)^2 and its slope in the overshoot.
 Taper strip(double overshoot, double width) {
-  if (overshoot <= 0.0) return {};
-  const double u = overshoot / width;
+  const double flat = border_flat * width;
+  if (overshoot <= flat) return {};
+  const double fall = width - flat;
+  const double u = (overshoot - flat) / fall;
   if (u >= 1.0) return {0.0, 0.0, 0.0};
   const double rest = 1.0 - u * u;
-  return {rest * rest, -4.0 * u * rest / width, 0.0};
+  return {rest * rest, -4.0 * u * rest / fall, 0.0};
 }
 
 }  // namespace
