@@ -274,7 +274,7 @@ void OneSided::restore(std::span<const std::byte> history) {
     in.get(loads_[k].work);
     in.get_all(loads_[k].force_before);
     in.get_all(loads_[k].x_before);
-    std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), SideLoads::before);
+    std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), static_cast<std::uint8_t>(SideLoads::now | SideLoads::before));
   }
   for (Pass& pass : pass_) pass.load(in);
   in.finish();
