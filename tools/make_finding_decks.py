@@ -16,7 +16,7 @@ SIDE, DISTANCE, GAP = 0.1, 1e-3, 9e-4
 
 
 def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=True, upper_down=True, flipped=(), repeated=(), shift=0.0,
-           stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0):
+           stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, start=0.0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0):
     """Plate 1 below looks up, plate 2 above looks down, unless told otherwise."""
     mesh = Mesh()
     low, low_nodes = mesh.plate(lambda u, w: (stretch * SIDE * u, SIDE * w, valley * abs(u - 0.5)), lower, lower)
@@ -38,7 +38,7 @@ def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=T
     deck.contact(1, "plate on plate", 1, 2, friction=0, gap=gap)
     if stfac:
         card = deck.lines.index("#              Stfac                Fric                 Gap              Tstart               Tstop") + 1
-        deck.lines[card] = reals(stfac) + deck.lines[card][20:]
+        deck.lines[card] = reals(stfac) + deck.lines[card][20:60] + reals(start) + deck.lines[card][80:]
     deck.node_group(1, "lower", flat(low_nodes))
     deck.node_group(2, "upper", flat(high_nodes))
     if speed:
@@ -92,7 +92,8 @@ DECKS = {
     "bound_by_condition": dict(story="The lower plate cannot move.", extra=clamp),
     "deep_penetration": dict(story="The upper plate falls so fast that it sinks in by most of a segment.", gap=0.0, speed=3000.0),
     "crossed": dict(story="The upper plate falls so fast that nodes would jump through the lower one in a step.", gap=0.0, speed=8000.0),
-    "turned_away": dict(story="The upper plate turns over; its surface then looks up.", distance=0.054, gap=0.03, spin=2e3, end=2.2e-3, stfac=1e-9),
+    "turned_away": dict(story="The upper plate turns over; its surface then looks up.", distance=0.054, gap=0.03, spin=2e3, end=2.2e-3, stfac=1e-9,
+                        start=1.4e-3),
 }
 
 

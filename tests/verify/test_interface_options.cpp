@@ -186,7 +186,11 @@ TEST(InterfaceOptions, IdelLetsGoOfErodedFacets) {
   EXPECT_GT(plate_2.depth, 0.005);
   EXPECT_LT(brick_1.depth, 0.002) << "the brick behind the broken coating still holds the facet";
   EXPECT_GT(brick_1.speed, 0.0) << "and throws the block back";
-  EXPECT_GT(brick_2.depth, 0.005) << "the facet went with its shell";
+  // The facets went with their shells, but their nodes still belong to the bricks behind: the pass that holds them against the
+  // ram goes on (numerics.md 7.4.7), with fewer springs.
+  EXPECT_GT(brick_2.depth, 1.1 * brick_1.depth);
+  EXPECT_GT(brick_2.speed, 0.0);
+  EXPECT_LT(brick_2.speed, 0.9 * brick_1.speed);
 }
 
 // Ptlim: the friction stress is at most Ptlim (the reference reads and ignores it). A block pressed by 2000 psi at mu = 0.3 would

@@ -119,10 +119,12 @@ ClosestPoint closest_on_quad(const Patch& patch, const Vec3& x) {
   const Bilinear q(patch, x);
   const Box box = domain(patch);
   Minimum best = descend(q, box, 0.0, 0.0);
-  // Not convex when |r.g| reaches the metric's smallest value: try the corners as well.
+  // Not convex when |r.g| reaches the metric's smallest value, or when the facet or its strips fold over: try the corners as well.
   const double metric = std::min(squared_norm(q.a), squared_norm(q.b));
   const double twist = squared_norm(q.g);
-  if (twist > 1e-8 * metric && best.squared_distance * twist > 0.04 * metric * metric) {
+  const double reach = std::max(std::max(-box.low_s, box.high_s), std::max(-box.low_t, box.high_t));
+  const bool folds = twist * reach * reach > 0.25 * metric;
+  if (folds || (twist > 1e-8 * metric && best.squared_distance * twist > 0.04 * metric * metric)) {
     for (const double s : {box.low_s, box.high_s}) {
       for (const double t : {box.low_t, box.high_t}) {
         const Minimum other = descend(q, box, s, t);

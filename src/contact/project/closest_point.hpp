@@ -1,8 +1,8 @@
 // Closest point on one facet whose free borders are extended by a taper strip.
 //
 // Facet: bilinear X(s,t) = sum H_i x_i (numerics.md 7.3.6) or a plane triangle (s, t: its second and third barycentric
-// coordinate). A side that is a free border of the surface is extended by a strip of a quarter of the facet's length, along
-// the same bilinear (or plane) form. Over the first two fifths of it the taper T stays 1: a fall from the border on pushes
+// coordinate). A side that is a free border of the surface is extended by a strip of a fifth of the facet's length, along
+// the same bilinear (or plane) form. Over the first half of it the taper T stays 1: a fall from the border on pushes
 // facing borders off each other (its lateral stiffness is -4 phi per width^2), which ends the contact of two bars that meet
 // edge to edge under load. Over the rest T falls from 1 to 0 as (1 - u^2)^2, u the share of the rest. Contact that slides over
 // a free border so ends continuously, and moments stay balanced (weights extrapolate).
@@ -30,9 +30,9 @@ struct Patch {
 enum class Feature : std::uint8_t { face, edge, corner };
 
 /// Fraction of a side's length by which a free border is extended.
-inline constexpr double border_strip = 0.25;
+inline constexpr double border_strip = 0.2;
 /// Fraction of the strip over which the taper stays 1.
-inline constexpr double border_flat = 0.4;
+inline constexpr double border_flat = 0.5;
 
 struct ClosestPoint {
   Feature feature = Feature::face;
