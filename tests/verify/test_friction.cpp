@@ -1,4 +1,4 @@
-// Coulomb friction through TYPE3 against closed forms (issue: run a real deck, 6.1; T19 to T23).
+// Coulomb friction through TYPE3 against closed forms (issue: run a real deck, 6.1; T1: in contact from the start; T19 to T23).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Every code of the inspection: a scene that provokes it, and a twin, alike but for the fault, that does not.
+// Every code of the inspection: a scene that provokes it, and a twin, alike but for the fault, that does not (T7 aspect ratio and warp,
+// T30 a gap that is large for its segments, among them).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,0 +1,53 @@
+// A surface's own stiffness per segment, from the model (T16, T17, T18; numerics.md 7.2.3).
+#include <gtest/gtest.h>
+
+#include "init/contact_setup.hpp"
+
+namespace abut::init {
+namespace {
+
+/// A brick a x b x c of E = 6, nu = 0.25 (bulk modulus 4) with a shell (E = 5, t = 0.1) on its top face.
+struct CoatedBrick {
+  model::Model m;
+  explicit CoatedBrick(double a, double b, double c) {
+    for (const double z : {0.0, c}) {
+      for (const Vec3 p : {Vec3{0, 0, z}, Vec3{a, 0, z}, Vec3{a, b, z}, Vec3{0, b, z}}) {
+        m.node_id.push_back(static_cast<Id>(m.node_id.size()) + 1);
+        m.node_x.push_back(p);
+      }
+    }
+    m.materials = {{1, "", 1.0, 1.0, model::LawElastic{6.0, 0.25}}, {2, "", 1.0, 1.0, model::LawElastic{5.0, 0.3}}};
+    model::ShellProperty shell;
+    shell.thickness = 0.1;
+    m.properties = {{1, "", model::SolidProperty{}}, {2, "", shell}};
+    m.parts = {{1, "", 0, 0, 0.0}, {2, "", 1, 1, 0.0}};
+    m.bricks.id = {1};
+    m.bricks.part = {0};
+    m.bricks.nodes = {{0, 1, 2, 3, 4, 5, 6, 7}};
+    m.shells.id = {2};
+    m.shells.part = {1};
+    m.shells.nodes = {{4, 5, 6, 7}};
+    m.shells.thickness = {0.0};
+  }
+  [[nodiscard]] double stiffness(model::ElementKind kind) const { return segment_stiffness(m, {{4, 5, 6, 7}, {kind, 0}}, m.node_x); }
+};
+
+// T17: B A^2/V = B A / height of a box.
+TEST(SegmentStiffness, T17_brick_face) {
+  for (const Vec3 size : {Vec3{1, 1, 1}, Vec3{2, 3, 0.5}, Vec3{0.1, 0.2, 4}}) {
+    const CoatedBrick brick(size.x, size.y, size.z);
+    const double expected = 4.0 * size.x * size.y / size.z;
+    EXPECT_NEAR(brick.stiffness(model::ElementKind::brick), expected, 1e-14 * expected);
+  }
+}
+
+// T16: E t, whatever the size of the shell. T18: the reader names the shell behind a face that has both, so its value is used.
+TEST(SegmentStiffness, T16_T18_shell) {
+  for (const double size : {0.01, 1.0, 100.0})
+    EXPECT_DOUBLE_EQ(CoatedBrick(size, 2 * size, 1.0).stiffness(model::ElementKind::shell4), 0.5);
+}
+
+TEST(SegmentStiffness, NothingBehindIsNoStiffness) { EXPECT_EQ(CoatedBrick(1, 1, 1).stiffness(model::ElementKind::none), 0.0); }
+
+}  // namespace
+}  // namespace abut::init
