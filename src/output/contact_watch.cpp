@@ -10,6 +10,7 @@ namespace abut::output {
 
 namespace {
 
+constexpr std::int64_t cycles_between_looks = 50;
 constexpr int looks = 100;             // per run
 constexpr double deep_share = 0.95;    // of the gap
 constexpr double energy_share = 0.02;  // of the largest energy term
@@ -72,12 +73,13 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
               r.cx > 0.0 ? "made" : "lost", 100.0 * std::abs(r.cx) / largest));
     }
   }
-  if (now.state->times.t >= next_look_) look(now);
+  if (now.state->times.t >= next_look_ && now.state->times.cycle >= next_look_cycle_) look(now);
 }
 
 void ContactWatch::look(const cycle::Snapshot& now) {
   const double t = now.state->times.t;
   next_look_ = std::max(t, next_look_ + now.model->controls.t_end / looks);
+  next_look_cycle_ = now.state->times.cycle + cycles_between_looks;
   const std::span<const Vec3> x(now.state->x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     Watched& w = interfaces_[i];

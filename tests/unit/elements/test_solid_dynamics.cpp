@@ -42,7 +42,7 @@ TEST(SolidDynamics, LongitudinalModeOfABar) {
     s.property.qa = s.property.qb = 0.0;
     SolidBody body(box.nodes, box.bricks, s);
     const auto start = body.x;
-    const auto shape = [n](double x) { return std::cos(std::numbers::pi * x / n); };
+    const auto shape = [&](double x) { return std::cos(std::numbers::pi * x / n); };
     body.set_velocity([&](const Vec3& x) { return Vec3{1e-6 * shape(x.x), 0, 0}; });
     const double c = std::sqrt(210.0 / 7.8), h = 0.5 / c;
     body.step(0.0);
