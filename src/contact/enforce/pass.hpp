@@ -163,6 +163,8 @@ class Pass {
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                        const SideLoads& surface_loads, Index i, Touch& touch);
   void measure_plain(const Side& held, const Side& surface, Index i, Touch& touch);
+  /// Stiffness of a node with a facet, neither interpolated nor tapered (T13; TYPE5: half of the facet's).
+  [[nodiscard]] double plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const;
   [[nodiscard]] Index swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads,
                                   Index i) const;
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
