@@ -177,6 +177,7 @@ Snapshot Cycle::snapshot() {
   s.walls = walls_.results();
   s.bodies = bodies_.results();
   s.sections = sections_.results();
+  s.accelerometers = accelerometers_.results();
   s.controller = controller_;
   s.history_due = history_due_;
   s.animation_due = animation_due_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "constraints/accelerometers.hpp"
 #include "constraints/axes.hpp"
 #include "constraints/boundary_conditions.hpp"
 #include "constraints/curves.hpp"
@@ -82,6 +83,7 @@ class Cycle {
   constraints::ImposedMotions imposed_;
   constraints::RigidWalls walls_;
   constraints::Sections sections_;
+  constraints::Accelerometers accelerometers_;
   int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;
