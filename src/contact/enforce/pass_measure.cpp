@@ -134,30 +134,22 @@ void Pass::share_among_equals(const Side& held, const Side& surface, const Measu
   touch.first_equal = sums.equals.size();
   PairForce& pair = touch.pair;
   Vec3 normal = touch.normal;
-  for (const Index corner : surface.surface().local()[at(m.facet)]) {
-    for (const Index f : surface.surface().facets_at(corner)) {
-      if (f == m.facet || !surface.active(f)) continue;
-      const auto known = [&] {
-        for (std::size_t k = touch.first_equal; k < sums.equals.size(); ++k) {
-          if (sums.equals[k].facet == f) return true;
-        }
-        return false;
-      };
-      if (known()) continue;
-      const ClosestPoint other = closest_point(extended(surface, f, strip), x);
-      if (std::abs(std::sqrt(other.squared_distance) - distance) > equal * distance || other.beyond) continue;
-      if (squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from the facet across
-      const Measure its = signed_measure(surface, f, other, x);
-      if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
-      const PairForce one = force_of(held, surface, its, i, touch.penetration + m.distance, touch.widens);
-      sums.equals.push_back({f, other.weight, one.on_facet});
-      normal += its.normal;
-      pair.on_node += one.on_node;
-      pair.magnitude += one.magnitude;
-      pair.potential += one.potential;
-      pair.stiffness = std::max(pair.stiffness, one.stiffness);
-      pair.extra_tangent = std::max(pair.extra_tangent, one.extra_tangent);
-    }
+  for (const Candidates::Entry& entry : candidates_.of(i)) {
+    const Index f = entry.facet;
+    if (entry.due - candidates_.clock() > (1.0 + equal) * distance || f == m.facet || !surface.active(f)) continue;
+    const ClosestPoint other = closest_point(extended(surface, f, strip), x);
+    if (std::abs(std::sqrt(other.squared_distance) - distance) > equal * distance || other.beyond) continue;
+    if (squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from the facet across
+    const Measure its = signed_measure(surface, f, other, x);
+    if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
+    const PairForce one = force_of(held, surface, its, i, touch.penetration + m.distance, touch.widens);
+    sums.equals.push_back({f, other.weight, one.on_facet});
+    normal += its.normal;
+    pair.on_node += one.on_node;
+    pair.magnitude += one.magnitude;
+    pair.potential += one.potential;
+    pair.stiffness = std::max(pair.stiffness, one.stiffness);
+    pair.extra_tangent = std::max(pair.extra_tangent, one.extra_tangent);
   }
   touch.equals = sums.equals.size() - touch.first_equal;
   if (touch.equals == 0) return;
