@@ -54,6 +54,7 @@ struct NodeState {
   double acceleration = 0.0;  ///< that the contact force gave to the opening
   double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
   double damping = 0.0;       ///< damping force of the last step
+  double force = 0.0;         ///< normal force of the last step, without damping
   std::int32_t facet = no_index;
   std::uint8_t held = 0;
   std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
@@ -64,6 +65,7 @@ struct NodeState {
 struct PassTotals {
   Vec3 normal, tangential;  ///< on the held nodes
   double potential = 0.0, stick = 0.0, dissipated = 0.0, damped = 0.0;
+  double started = 0.0;  ///< work of a growing gap
   double largest_penetration = 0.0, largest_approach = 0.0;
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;
@@ -144,6 +146,7 @@ class Pass {
   bool stale_ = true;
   bool started_ = false;
   bool settled_ = false;  ///< initial penetrations are dealt with
+  double keep_ = 1.0;     ///< share of every node's offset that the gradual start leaves in this step
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
   std::vector<double> depth_;  ///< per facet: how far behind a node is still met
   std::vector<NodeState> state_, next_;
@@ -157,6 +160,8 @@ class Pass {
   double surface_step_ = 0.0;  ///< largest motion of the surface in the last step, relative to its mean
   Vec3 mean_step_;
 
+  /// How much of a node's offset the gradual start gives back to its gap in this step.
+  [[nodiscard]] double growth(const NodeState& before) const;
   /// Gap of a node at this distance, less what initial penetration takes from it.
   [[nodiscard]] double gap_of(double distance, NodeState& after) const;
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
