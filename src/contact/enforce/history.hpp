@@ -12,7 +12,7 @@
 namespace abut::contact {
 
 inline constexpr std::uint64_t history_magic = 0x3143544354554241ULL;  // "ABUTCTC1"
-inline constexpr std::uint64_t history_version = 1;
+inline constexpr std::uint64_t history_version = 2;
 
 class HistoryWriter {
  public:

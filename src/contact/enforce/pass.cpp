@@ -61,10 +61,13 @@ void Pass::start(const Side& held, const Side& surface) {
   started_ = true;
   size_ = surface.mean_size();
   depth_.resize(at(surface.facet_count()));
+  widening_.resize(at(surface.facet_count()));
   for (Index f = 0; f < surface.facet_count(); ++f) {
+    const double length = std::sqrt(surface.facet_area(f));
+    widening_[at(f)] = length > 0.0 ? 1.0 / length : 0.0;
     double depth = options_.depth_limit;
     if (depth <= 0.0) {
-      depth = 0.5 * std::sqrt(surface.facet_area(f));
+      depth = 0.5 * length;
       if (surface.thickness(f) > 0.0) depth = std::min(depth, std::max(surface.thickness(f), options_.gap));
     }
     depth_[at(f)] = depth;
@@ -140,6 +143,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
   sums.totals = {};
   sums.reactions.clear();
   sums.in_contact.clear();
+  sums.equals.clear();
   std::array<Index, at(group)> nodes;
   std::size_t count = 0;
   bool any = false;
@@ -150,7 +154,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
     nodes[count++] = i;
     next_[at(i)] = state_[at(i)];
     if (closest()) {
-      measure_closest(host, held, surface, held_loads, surface_loads, i, touch);
+      measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
     } else {
       measure_plain(held, surface, i, touch);
     }
@@ -244,6 +248,7 @@ void Pass::save(HistoryWriter& out) const {
   out.put_all(state_);
   out.put(static_cast<std::uint64_t>(started_ ? depth_.size() : 0));
   for (const double d : depth_) out.put(d);
+  for (const double w : widening_) out.put(w);
   out.put(size_);
   out.put(settled_);
   for (const Tracked& t : tracked_) out.put(t);
@@ -257,6 +262,8 @@ void Pass::load(HistoryReader& in) {
   started_ = facets > 0;
   depth_.resize(facets);
   for (double& d : depth_) in.get(d);
+  widening_.resize(facets);
+  for (double& w : widening_) in.get(w);
   limit_depths();
   in.get(size_);
   in.get(settled_);

@@ -112,6 +112,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   totals.largest_penetration = std::max(totals.largest_penetration, penetration);
   sums.in_contact.push_back(held.nodes()[at(i)]);
 
+  const double share = 1.0 / static_cast<double>(touch.equals + 1);
   const bool fresh = before.held == 0;
   double fraction = 1.0;  // of the last step in contact
   double factor = 1.0;
@@ -137,13 +138,13 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     after.damping = std::max(-c * motion.rate, -normal_force);
     totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
     on_node += after.damping * touch.normal;
-    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= touch.weight[k] * after.damping * touch.normal;
+    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= (share * touch.weight[k] * after.damping) * touch.normal;
   }
   held_loads.own_normal[at(i)] = on_node;
   held_loads.loaded[at(i)] |= SideLoads::now;
   totals.normal += on_node;
 
-  after.held = 1;
+  after.held = touch.widens ? 2 : 1;
   after.facet = touch.facet;
   after.normal = touch.normal;
   after.rate = motion.rate;
@@ -163,10 +164,18 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     held_loads.own_tangential[at(i)] = -on_surface;
-    reaction.tangential = on_surface;
+    reaction.tangential = share * on_surface;
     totals.tangential -= on_surface;
   }
   sums.reactions.push_back(reaction);
+  for (std::size_t k = touch.first_equal; k < touch.first_equal + touch.equals; ++k) {
+    const Equal& one = sums.equals[k];
+    Reaction further{one.facet, reaction.stiffness, one.weight, {}, reaction.tangential};
+    for (std::size_t c = 0; c < 4; ++c) {
+      further.normal[c] = factor * one.on_facet[c] - (share * one.weight[c] * after.damping) * touch.normal;
+    }
+    sums.reactions.push_back(further);
+  }
 }
 
 }  // namespace abut::contact
