@@ -33,11 +33,19 @@ struct CheckArguments {
   std::filesystem::path write_deck;
 };
 
+struct ReportArguments {
+  std::filesystem::path run;     ///< run folder
+  std::filesystem::path output;  ///< empty: RUN/report.html
+  bool all_fields = false;
+  bool quiet = false;
+};
+
 /// "abut 0.1.0 (commit), compiler, instruction set".
 [[nodiscard]] std::string version_text();
 
 [[nodiscard]] int run_command(const RunArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
+[[nodiscard]] int report_command(const ReportArguments& arguments);
 
 /// @pre name is "standard" or "reference"
 [[nodiscard]] inline Profile profile_of(std::string_view name) { return name == "reference" ? Profile::reference() : Profile::standard(); }
