@@ -15,12 +15,22 @@ struct RunArguments {
   int threads = 0;               ///< 0: all that the machine has
   std::string profile = "standard";
   std::string interface_law;  ///< empty: the profile's
+  int checkpoint_every = 0;   ///< 0: as /RFILE says
   int hash_every = 0;
   bool timing = false;
   bool quiet = false;
   bool orient = false;               ///< --orient auto
   bool allow_findings = false;       ///< run although the contact inspection found errors
   std::filesystem::path write_deck;  ///< empty: not asked for
+};
+
+struct ResumeArguments {
+  std::filesystem::path folder;
+  std::filesystem::path deck;  ///< empty: where it was
+  int threads = 0;
+  int checkpoint_every = -1;  ///< -1: as before
+  bool timing = false;
+  bool quiet = false;
 };
 
 struct CheckArguments {
@@ -39,6 +49,7 @@ struct ReportArguments {
 };
 
 [[nodiscard]] int run_command(const RunArguments& arguments);
+[[nodiscard]] int resume_command(const ResumeArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
 [[nodiscard]] int report_command(const ReportArguments& arguments);
 

@@ -69,8 +69,8 @@ void Cycle::advance(Sink& sink) {
 void Cycle::decide_outputs() {
   const double t = state_.times.t;
   const model::Controls& c = model_.controls;
-  history_due_ = t >= next_history_;
-  if (history_due_) next_history_ = std::min(c.t_end, std::max(t, next_history_ + c.history_interval));
+  history_due_ = t >= std::min(c.t_end, next_history_);
+  if (t >= next_history_) next_history_ = std::max(t, next_history_ + c.history_interval);
   animation_due_ = t >= next_animation_;
   if (animation_due_) next_animation_ = std::max(t, next_animation_ + c.animation_interval);
   listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
