@@ -194,6 +194,7 @@ Snapshot Cycle::snapshot() const {
   s.walls = walls_.results();
   s.bodies = bodies_.results();
   s.sections = sections_.results();
+  s.accelerometers = accelerometers_.results();
   s.controller = controller_;
   return s;
 }

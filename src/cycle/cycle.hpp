@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "constraints/accelerometers.hpp"
 #include "constraints/axes.hpp"
 #include "constraints/boundary_conditions.hpp"
 #include "constraints/curves.hpp"
@@ -20,6 +21,7 @@
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
 #include "cycle/time_step.hpp"
+#include "elements/assembly.hpp"
 #include "init/contact_setup.hpp"
 #include "init/start.hpp"
 
@@ -87,7 +89,8 @@ class Cycle {
   std::vector<std::unique_ptr<elements::Group>> groups_;
   elements::Assembly assembly_;
   state::State state_;
-  std::vector<double> slots_;
+  std::vector<double> sums_;   // of chunks of elements
+  std::vector<double> slots_;  // of elements, when a section asks for them
 
   constraints::Curves curves_;
   constraints::Axes axes_;
@@ -98,6 +101,7 @@ class Cycle {
   constraints::ImposedMotions imposed_;
   constraints::RigidWalls walls_;
   constraints::Sections sections_;
+  constraints::Accelerometers accelerometers_;
   int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;

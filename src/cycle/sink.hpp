@@ -12,6 +12,7 @@
 #include "abut/results.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
+#include "constraints/accelerometers.hpp"
 #include "constraints/rigid_bodies.hpp"
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
@@ -33,6 +34,7 @@ struct PartResult {
 using WallResult = constraints::WallSums;
 using BodyResult = constraints::BodySums;
 using SectionResult = constraints::SectionSums;
+using AccelerometerResult = constraints::AccelerometerSums;
 
 /// Everything that an output may read at t^n (numerics.md 1.2 step 26). Views are valid during the call only.
 struct Snapshot {
@@ -48,6 +50,7 @@ struct Snapshot {
   std::span<const WallResult> walls;
   std::span<const BodyResult> bodies;
   std::span<const SectionResult> sections;
+  std::span<const AccelerometerResult> accelerometers;
   StepController controller;
   bool history_due = false;      ///< a time-history row belongs to this cycle
   bool animation_due = false;    ///< an animation state belongs to this cycle

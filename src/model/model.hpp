@@ -280,6 +280,14 @@ struct Section {
   std::vector<Index> interfaces;
 };
 
+/// /ACCEL: the acceleration of a node along the axes of a skew, low-pass filtered.
+struct Accelerometer {
+  Id id = 0;
+  Index node = no_index;
+  Index skew = no_index;
+  double cut_off = 0.0;  ///< frequency, 1/time; 0: not filtered
+};
+
 // ---- outputs ------------------------------------------------------------------------------------------------------
 
 enum class ThKind { node, part, shell, sh3n, brick, inter, rwall, rbody, section, accelerometer };
@@ -364,6 +372,7 @@ struct Model {
   std::vector<RigidWall> rigid_walls;
   std::vector<Interface> interfaces;
   std::vector<Section> sections;
+  std::vector<Accelerometer> accelerometers;
   std::vector<ThRequest> th_requests;
   Controls controls;
   std::vector<SkippedKeyword> skipped;

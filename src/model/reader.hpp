@@ -27,7 +27,7 @@ inline constexpr Dimension none{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}
 struct Tables {
   using Map = std::unordered_map<Id, Index>;
   Map nodes, shells, sh3ns, bricks, tetras, parts, materials, properties, functions, skews, sensors;
-  Map node_groups, surfaces, interfaces, rigid_bodies, rigid_walls, sections;
+  Map node_groups, surfaces, interfaces, rigid_bodies, rigid_walls, sections, accelerometers;
   Map shell_groups, sh3n_groups, brick_groups, part_groups;  ///< into Context::element_groups / part_groups
 };
 

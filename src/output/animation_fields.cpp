@@ -1,6 +1,8 @@
 #include "output/animation_fields.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -66,6 +68,29 @@ bool is_always_there(std::string_view s) {
   return names.contains(s);
 }
 
+CellField layer_field(std::string name, elements::ShellLayer layer) {
+  return {std::move(name), 6, [layer](const ElementSample& e, double* out) {
+            const std::array<double, 6> s = e.group != nullptr ? e.group->layer_stress(e.element, layer) : std::array<double, 6>{};
+            std::copy(s.begin(), s.end(), out);
+          }};
+}
+
+/// Fields of "TENS/STRESS/UPPER" and its like; none for what is not a layer.
+std::vector<CellField> layer_fields(std::string_view selection) {
+  using Kind = elements::ShellLayer::Kind;
+  constexpr std::string_view stresses = "TENS/STRESS/";
+  if (!selection.starts_with(stresses)) return {};
+  const std::string_view layer = selection.substr(stresses.size());
+  if (layer == "UPPER") return {layer_field("stress_upper", {Kind::upper})};
+  if (layer == "LOWER") return {layer_field("stress_lower", {Kind::lower})};
+  if (layer == "BEND") return {layer_field("stress_bending", {Kind::bending})};
+  if (layer == "ALL") return {layer_field("stress_upper", {Kind::upper}), layer_field("stress_lower", {Kind::lower})};
+  int point = 0;
+  const auto [end, fault] = std::from_chars(layer.data(), layer.data() + layer.size(), point);
+  if (fault != std::errc{} || end != layer.data() + layer.size() || point < 1) return {};
+  return {layer_field("stress_point_" + std::to_string(point), {Kind::point, point})};
+}
+
 /// "SHELL/EPSP" and "BRICK/EPSP" ask for the same field as "ELEM/EPSP"; "BRICK/TENS/STRESS" as "TENS/STRESS".
 std::string normalised(std::string s) {
   for (const std::string_view type : {"SHELL/", "BRICK/", "SH3N/", "SOLID/", "ELEM/"}) {
@@ -110,6 +135,8 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
       add_once(fields.nodes, n->second);
     } else if (const auto c = std::find_if(cell_fields.begin(), cell_fields.end(), same); c != cell_fields.end()) {
       add_once(fields.cells, c->second);
+    } else if (const std::vector<CellField> layers = layer_fields(s); !layers.empty()) {
+      for (const CellField& field : layers) add_once(fields.cells, field);
     } else if (std::find(fields.left_out.begin(), fields.left_out.end(), selection) == fields.left_out.end()) {
       fields.left_out.push_back(selection);
     }
