@@ -79,6 +79,7 @@ void Cycle::persist(state::Archive& a) {
     imposed_.persist(a);
     walls_.persist(a);
     sections_.persist(a);
+    accelerometers_.persist(a);
   });
   if (a.loading()) bodies_revision_ = -1;  // the groups are told again which elements are rigid
   a.section("cycle", [&] {

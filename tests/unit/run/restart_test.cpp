@@ -20,11 +20,14 @@ namespace {
 
 using model::base_deck::base_engine;
 using model::base_deck::base_starter;
+using model::base_deck::integers;
+using model::base_deck::reals;
 using model::base_deck::with_line;
 
 class Folder {
  public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("abut_restart_" + std::to_string(::getpid()) + "_" + std::to_string(count_++))) {
+  Folder()
+      : path_(std::filesystem::temp_directory_path() / ("abut_restart_" + std::to_string(::getpid()) + "_" + std::to_string(count_++))) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() { std::filesystem::remove_all(path_); }
@@ -98,11 +101,16 @@ TEST(Restart, EveryKindOfConditionAndInterfaceGoesOnWithTheSameBits) {
   }
 }
 
-TEST(Restart, DeletedElementsScaledMassesAndSensorsGoOnWithTheSameBits) {
+TEST(Restart, DeletedElementsScaledMassesSensorsAndInstrumentsGoOnWithTheSameBits) {
   // The plates tear at a small plastic strain; the lid becomes rigid while the run goes on.
-  std::string starter = with_line(base_starter, "/MAT/PLAS_JOHNS/2", 4, "                 0.3                 0.5                 0.5              0.0002                   0");
-  starter = with_line(starter, "/RBODY/1", 2, "        30         1         0         0                1E-6         3         0         0         0");
+  std::string starter = with_line(base_starter, "/MAT/PLAS_JOHNS/2", 4,
+                                  "                 0.3                 0.5                 0.5              0.0002                   0");
+  starter = with_line(starter, "/RBODY/1", 2,
+                      "        30         1         0         0                1E-6         3         0         0         0");
   starter = with_line(starter, "/INTER/TYPE5/2", 2, "         4         3                                                 0         1");
+  starter.replace(
+      starter.find("/TH/PART/2"), 0,
+      "/ACCEL/5\nsensor\n" + integers({"13", "1", ""}) + reals({"1.65"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n");
   const std::string engine = std::string(base_engine) + "/DT/NODA/CST\n0.9 1.5e-4\n";
   const Model model = base_model(starter, engine);
   expect_restarts(model, settings_of(Rules::standard), {3, 80, 200}, "deleted");
@@ -140,7 +148,8 @@ TEST(Restart, OtherModelsRulesAndFilesAreRefusedByName) {
     run.save(file);
   }
   EXPECT_EQ(message_of_load(base_model(), file, settings), "");
-  const Model other = base_model(with_line(base_starter, "/NODE", 3, "         3                   1                1.01                   0"));
+  const Model other =
+      base_model(with_line(base_starter, "/NODE", 3, "         3                   1                1.01                   0"));
   EXPECT_NE(message_of_load(other, file, settings).find("it is of another model"), std::string::npos);
   EXPECT_NE(message_of_load(base_model(), file, settings_of(Rules::reference)).find("another rule set"), std::string::npos);
   EXPECT_NE(message_of_load(base_model(), folder.file("none.rst"), settings).find("No such file"), std::string::npos);
