@@ -75,7 +75,7 @@ void expect_same(const Run& a, const Run& b, const std::string& what) {
 /// Runs to the end; at some cycles a copy goes on from a checkpoint in memory of its own and must end alike.
 void expect_restarts(const Model& model, const RunSettings& settings, const std::vector<std::int64_t>& cycles, const std::string& what) {
   const Folder folder;
-  Run run(model, settings);
+  abut::Run run(model, settings);
   run.advance_to_end([&](Run& r) {
     for (const std::int64_t c : cycles) {
       if (r.cycle() == c) r.save(folder.file((std::to_string(c) + ".rst").c_str()));
@@ -87,7 +87,7 @@ void expect_restarts(const Model& model, const RunSettings& settings, const std:
   for (const std::int64_t c : cycles) {
     RunSettings other = settings;
     other.threads = settings.threads == 1 ? 3 : 1;
-    Run again = Run::load(model, folder.file((std::to_string(c) + ".rst").c_str()), other);
+    abut::Run again = abut::Run::load(model, folder.file((std::to_string(c) + ".rst").c_str()), other);
     EXPECT_EQ(again.cycle(), c);
     again.advance_to_end();
     expect_same(run, again, what + " from cycle " + std::to_string(c));
@@ -119,11 +119,11 @@ TEST(Restart, DeletedElementsScaledMassesSensorsAndInstrumentsGoOnWithTheSameBit
 TEST(Restart, VelocitiesThatWereChangedAreInTheCheckpoint) {
   const Folder folder;
   const Model model = base_model();
-  Run run(model, settings_of(Rules::standard));
+  abut::Run run(model, settings_of(Rules::standard));
   for (int i = 0; i < 20; ++i) run.advance();
   run.edit_velocities()[9].x += 1.0;
   run.save(folder.file("edited.rst"));
-  Run again = Run::load(model, folder.file("edited.rst"), settings_of(Rules::standard));
+  abut::Run again = abut::Run::load(model, folder.file("edited.rst"), settings_of(Rules::standard));
   for (int i = 0; i < 20; ++i) {
     run.advance();
     again.advance();
@@ -133,7 +133,7 @@ TEST(Restart, VelocitiesThatWereChangedAreInTheCheckpoint) {
 
 std::string message_of_load(const Model& model, const std::filesystem::path& file, const RunSettings& settings) {
   try {
-    (void)Run::load(model, file, settings);
+    (void)abut::Run::load(model, file, settings);
     return {};
   } catch (const RunError& error) { return error.what(); }
 }
@@ -143,7 +143,7 @@ TEST(Restart, OtherModelsRulesAndFilesAreRefusedByName) {
   const RunSettings settings = settings_of(Rules::standard);
   const auto file = folder.file("a.rst");
   {
-    Run run(base_model(), settings);
+    abut::Run run(base_model(), settings);
     run.advance();
     run.save(file);
   }
@@ -161,13 +161,13 @@ TEST(Restart, ASecondCheckpointKeepsTheFirst) {
   const Folder folder;
   const Model model = base_model();
   const RunSettings settings = settings_of(Rules::standard);
-  Run run(model, settings);
+  abut::Run run(model, settings);
   run.advance();
   run.save(folder.file("a.rst"));
   run.advance();
   run.save(folder.file("a.rst"));
-  EXPECT_EQ(Run::load(model, folder.file("a.rst"), settings).cycle(), 2);
-  EXPECT_EQ(Run::load(model, folder.file("a_previous.rst"), settings).cycle(), 1);
+  EXPECT_EQ(abut::Run::load(model, folder.file("a.rst"), settings).cycle(), 2);
+  EXPECT_EQ(abut::Run::load(model, folder.file("a_previous.rst"), settings).cycle(), 1);
 }
 
 /// Damaged files: every one is refused with a message, whatever was changed.
@@ -175,7 +175,7 @@ TEST(Restart, EveryFlippedBitAndEveryCutIsFound) {
   const Folder folder;
   const Model model = base_model();
   const RunSettings settings = settings_of(Rules::standard);
-  Run run(model, settings);
+  abut::Run run(model, settings);
   for (int i = 0; i < 70; ++i) run.advance();
   run.save(folder.file("good.rst"));
   const std::vector<std::byte> good = output::read_bytes(folder.file("good.rst"));
@@ -199,7 +199,7 @@ TEST(Restart, AFileWithARightChecksumIsNotTrusted) {
   const Model model = base_model();
   RunSettings settings = settings_of(Rules::standard);
   settings.record_history = false;
-  Run run(model, settings);
+  abut::Run run(model, settings);
   for (int i = 0; i < 70; ++i) run.advance();
   run.save(folder.file("good.rst"));
   const std::vector<std::byte> file = output::read_bytes(folder.file("good.rst"));
@@ -223,7 +223,7 @@ TEST(Restart, AFileWithARightChecksumIsNotTrusted) {
     }
     put(folder.file("changed.rst"), state::seal(changed));
     try {
-      Run again = Run::load(model, folder.file("changed.rst"), settings);
+      abut::Run again = abut::Run::load(model, folder.file("changed.rst"), settings);
       again.advance();  // what was changed is a number that no check can know
     } catch (const RunError&) { ++refused; }
   }
