@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "abut/contact/options.hpp"
 #include "core/profile.hpp"
@@ -16,7 +17,9 @@ struct RunArguments {
   std::filesystem::path output;  ///< empty: ./NAME
   int threads = 0;               ///< 0: all that the machine has
   std::string profile = "standard";
-  std::string interface_law;  ///< empty: the profile's
+  std::string interface_law;                 ///< empty: the profile's
+  std::vector<std::string> contact_ramps;    ///< ID:TIME
+  std::vector<std::string> contact_records;  ///< ID, ID:FROM or ID:FROM:TO
   int hash_every = 0;
   bool timing = false;
   bool quiet = false;
@@ -33,11 +36,17 @@ struct CheckArguments {
   std::filesystem::path write_deck;
 };
 
+struct ReplayArguments {
+  std::filesystem::path log;
+  bool steps = false;  ///< a line per step
+};
+
 /// "abut 0.1.0 (commit), compiler, instruction set".
 [[nodiscard]] std::string version_text();
 
 [[nodiscard]] int run_command(const RunArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
+[[nodiscard]] int replay_command(const ReplayArguments& arguments);
 
 /// @pre name is "standard" or "reference"
 [[nodiscard]] inline Profile profile_of(std::string_view name) { return name == "reference" ? Profile::reference() : Profile::standard(); }

@@ -19,6 +19,8 @@ constexpr const char* examples = R"(Examples:
   abut check deck_0000.rad                      read, validate, inspect the contacts, summarise; nothing is written
   abut check deck_0000.rad --orient auto --write-deck fixed_0000.rad
                                                 turn contact surfaces to face each other and keep the result
+  abut run deck_0000.rad --record-contact 3     keep all inputs of interface 3 ...
+  abut replay deck/deck_contact_3.calls         ... and compute its forces again from them alone
 
 DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it. A run writes NAME.out (listing),
 NAME_th.csv (time history), NAME.pvd (animation, open it with ParaView) and run.json.
@@ -47,6 +49,14 @@ int main(int argc, char** argv) {
       ->add_option("--interface-law", run.interface_law,
                    "normal law of contacts with a gap: stiffening or constant (default: the profile's)")
       ->check(laws);
+  run_app
+      ->add_option("--contact-ramp", run.contact_ramps,
+                   "ID:TIME, push initial penetrations of an interface out over this time from its birth on (press fits)")
+      ->allow_extra_args(false);
+  run_app
+      ->add_option("--record-contact", run.contact_records,
+                   "ID[:FROM[:TO]], write all inputs of an interface to NAME_contact_ID.calls in the run folder, for abut replay")
+      ->allow_extra_args(false);
   run_app->add_option("--hash-every", run.hash_every, "hash the state every N cycles into run.json")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   run_app->add_flag("--timing", run.timing, "print the time spent in each phase");
@@ -68,6 +78,11 @@ int main(int argc, char** argv) {
   check_app->add_option("--orient", check_orient, orient_help)->check(orientations)->capture_default_str();
   check_app->add_option("--write-deck", check.write_deck, write_help)->needs("--orient");
 
+  ReplayArguments again;
+  CLI::App* replay_app = app.add_subcommand("replay", "make the recorded calls of an interface again and compare every bit");
+  replay_app->add_option("FILE", again.log, "NAME_contact_ID.calls, from abut run --record-contact or from another host")->required();
+  replay_app->add_flag("--steps", again.steps, "print a line per step");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -80,6 +95,7 @@ int main(int argc, char** argv) {
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
   try {
+    if (replay_app->parsed()) return replay_command(again);
     return run_app->parsed() ? run_command(run) : check_command(check);
   } catch (const std::exception& e) {
     fmt::print(stderr, "abut: {}\n", e.what());

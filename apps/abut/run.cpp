@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "contact_choices.hpp"
 #include "deck_input.hpp"
 #include "driver.hpp"
 #include "output/progress.hpp"
@@ -59,6 +60,7 @@ output::RunInfo run_info(const RunArguments& arguments, const RunSettings& setti
   info.threads = settings.threads;
   info.profile = arguments.profile;
   info.interface_law = arguments.interface_law;
+  info.contact_ramps = settings.contacts.starts;
   info.hash_every = arguments.hash_every;
   info.decks = input.files;
   info.findings = input.findings.all();
@@ -87,7 +89,8 @@ int run_command(const RunArguments& arguments) {
   RunSettings settings;
   settings.threads = arguments.threads > 0 ? arguments.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   settings.profile = profile_of(arguments.profile);
-  settings.interface_law = law_of(arguments.interface_law);
+  settings.contacts = {law_of(arguments.interface_law), gradual_starts(input.model, arguments.contact_ramps)};
+  ContactLogs logs = contact_logs(input.model, arguments.contact_records, version_text());
   settings.hash_every = arguments.hash_every;
   const auto inspection_start = std::chrono::steady_clock::now();
   const std::vector<init::ContactFinding> contact = describe_model(input.model, settings, false).contact;
@@ -112,6 +115,8 @@ int run_command(const RunArguments& arguments) {
     all.push_back({"run", seconds_since(run_start)});
     return all;
   });
+  open_contact_logs(logs, folder);
+  settings.recordings = logs.recordings;
   if (!arguments.quiet) {
     fmt::print("{}: {} nodes, {} elements, {} interfaces, until {:.6g} {}; results in {}\n", model.name, model.node_count(),
                output::element_count(model), model.interfaces.size(), model.controls.t_end, model.units.time_name,

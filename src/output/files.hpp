@@ -3,6 +3,7 @@
 // Every failure (unwritable folder, full disk) is a RunError that names the path and the system's reason.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path animation_folder() const { return directory / (name + "_anim"); }
   /// State k (0-based) of the animation.
   [[nodiscard]] std::filesystem::path animation_state(int k) const;
+  [[nodiscard]] std::filesystem::path contact_calls(std::int64_t interface) const {
+    return directory / (name + "_contact_" + std::to_string(interface) + ".calls");
+  }
   [[nodiscard]] std::filesystem::path manifest() const { return directory / "run.json"; }
 };
 

@@ -1,5 +1,5 @@
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -DGENERATOR=... -DKIND=installed|subdirectory -P consumer.cmake
-# Installs abut into a fresh prefix (KIND installed), then configures, builds and runs the consumer against it.
+# Installs abut into a fresh prefix (KIND installed), then configures, builds and runs the consumer and examples/embed against it.
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 
@@ -22,3 +22,4 @@ endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer/${KIND} -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${WORK}/build/consumer)
+run(${WORK}/build/embed/embed ${WORK}/embed.calls)
