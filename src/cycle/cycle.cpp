@@ -114,6 +114,7 @@ void Cycle::internal_forces(StepLimits& limits) {
 
 void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
+  record_contacts();
   const state::StepTimes& t = state_.times;
   const contact::HostState host{state_.x, state_.v, state_.mass, t.t, t.h_minus, t.h_bar_old};
   {
@@ -132,6 +133,7 @@ void Cycle::contact_forces(StepLimits& limits) {
     out.ce = r.elastic;
     out.fw = r.friction_work;
     out.dw = r.damping_work;
+    out.sw = r.start_work;
     out.cx = r.made;
     out.in_contact = r.in_contact;
     out.largest_penetration = r.largest_penetration;
