@@ -130,8 +130,10 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
     rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
     const T factor = T(q.rotation_correction * h);
     const T minus = vz13 - vz24, plus = vz13 + vz24;
-    const T dx = factor * (minus * minus) / q4_detail::guarded(g.py1 + g.py2);
-    const T dy = factor * (plus * plus) / q4_detail::guarded(g.px2 - g.px1);
+    const T below_x = q4_detail::guarded(g.py1 + g.py2), below_y = q4_detail::guarded(g.px2 - g.px1);
+    const T reciprocal = factor / (below_x * below_y);  // one division for both
+    const T dx = reciprocal * below_y * (minus * minus);
+    const T dy = reciprocal * below_x * (plus * plus);
     vx13 -= dx;
     vx24 += dx;
     vy13 += dy;

@@ -26,8 +26,8 @@
 // shear. Left out: stress (geometric) stiffness, of relative size stress/E.
 //
 // Nodal stiffness: K_I = k_e m_I/2 with k_e = k + 2 c/h_ref, so that h <= sqrt(2 m/K) at every node implies the condition above
-// for the sum (h^2 k_e m_I/4 summed over elements <= m_I, while h >= h_ref). h_ref is half of the last step or of the element's own
-// step, whichever is smaller: the step may halve from one cycle to the next without leaving the bound.
+// for the sum (h^2 k_e m_I/4 summed over elements <= m_I, while h >= h_ref). h_ref is half of the last step: the step may halve from one cycle
+// to the next without leaving the bound.
 #pragma once
 
 #include "elements/shell_common/section.hpp"
@@ -79,12 +79,7 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
     const T d = T(s.membrane_damping) * sqrt(a);
     c = c + t_per_am * d * damping_eigenvalue(trace, a2);
   }
-  ShellStep<T> out;
-  out.step = stable_step(k, c);
-  out.per_mass = half * (k + viscous_stiffness(c, out.step, h));
-  out.stiffness = zero;
-  out.rotational = zero;
-  return out;
+  return bounded_step(s.step_wanted, k, c, h);
 }
 
 /// `damping`: sqrt(1 + dm^2) - dm.
