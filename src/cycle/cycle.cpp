@@ -38,6 +38,7 @@ void Cycle::advance(Sink& sink) {
     const Timer timer(*this, p_constraints);
     sections_.gather(state_, slots_);  // 11
     bodies_.gather(state_, boundary_);
+    edited_work_ = take_over_edits();
     walls_.add_reaction(state_);                                                  // 12
     scaled_energy_ += time_step_->scale_masses(state_);                           // 13
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
@@ -50,14 +51,15 @@ void Cycle::advance(Sink& sink) {
     booked_work_ += imposed_.book_work(state_);
     walls_.apply(state_);  // 21
     booked_work_ += walls_.work();
-    boundary_.apply(state_);  // 22
-    bodies_.scatter(state_);  // 23
+    boundary_.apply(state_);         // 22
+    bodies_.scatter(state_);         // 23
+    accelerometers_.record(state_);  // 24
     book_interfaces();
     close_balance();  // 25
   }
   {
     const Timer timer(*this, p_output);  // 26
-    const Snapshot now = snapshot();
+    const Snapshot now = snapshot_of_cycle();
     if (!begun_) sink.begin(now);
     begun_ = true;
     sink.cycle(now);

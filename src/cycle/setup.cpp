@@ -32,7 +32,8 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       boundary_(model, axes_, bodies_, options.profile),
       imposed_(model, curves_, axes_, bodies_),
       walls_(model, bodies_, boundary_, imposed_, options.profile),
-      sections_(model, groups_) {
+      sections_(model, groups_),
+      accelerometers_(model, axes_) {
   const auto n = static_cast<std::size_t>(model.node_count());
   contact_stiffness_.assign(n, 0.0);
   contact_normal_.resize(n);

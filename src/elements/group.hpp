@@ -59,6 +59,12 @@ struct ElementOutput {
   std::array<double, 8> resultants{};  ///< shells: F1 F2 F12 Q1 Q2 M1 M2 M12 (numerics.md 8.5), element frame
 };
 
+/// A place in the thickness of a shell.
+struct ShellLayer {
+  enum class Kind { bending, upper, lower, point } kind = Kind::upper;
+  int point = 0;  ///< integration point from 1 (bottom), for Kind::point
+};
+
 /// Sums over a part for the time history (numerics.md 8.3); `v` at the entry of the cycle.
 struct PartSums {
   double kinetic_energy = 0.0, rotational_energy = 0.0, mass = 0.0;
@@ -120,6 +126,10 @@ class Group {
   virtual void set_rigid(std::span<const std::uint8_t> rigid) = 0;
 
   [[nodiscard]] virtual ElementOutput output(Index element) const = 0;
+  /// Stress in a layer of a shell, global axes, components as ElementOutput::stress. `bending` is what bending adds at the
+  /// upper face, 6 M. A shell with stresses at points has those of its outermost points as upper and lower ones, else F +- 6 M.
+  /// Zero for a point that the shell does not have; solids have their mean stress in every layer.
+  [[nodiscard]] virtual std::array<double, 6> layer_stress(Index element, ShellLayer layer) const;
   [[nodiscard]] virtual bool active(Index element) const = 0;
   /// Current thickness of a shell (contact updates use it); 0 for solids.
   [[nodiscard]] virtual double thickness(Index element) const = 0;
@@ -136,6 +146,8 @@ class Group {
   SlotLayout layout_;
   ChunkTable chunks_;
 };
+
+inline std::array<double, 6> Group::layer_stress(Index element, ShellLayer) const { return output(element).stress; }
 
 /// What a group is made of.
 struct GroupInput {

@@ -12,8 +12,8 @@
 namespace abut::elements {
 
 // add_block.isa.cpp, once per instruction set
-#define ABUT_DECLARE_ADD(isa)                                          \
-  namespace isa {                                                      \
+#define ABUT_DECLARE_ADD(isa)                                            \
+  namespace isa {                                                        \
   void add_quad_block(const double*, const std::uint16_t*, double*);     \
   void add_triangle_block(const double*, const std::uint16_t*, double*); \
   }
@@ -34,6 +34,18 @@ auto choose_add_block(bool quad) {
       break;
   }
   return quad ? sse2::add_quad_block : sse2::add_triangle_block;
+}
+
+/// Stress of a shell's frame (xx yy xy yz zx, no zz) in global axes: xx yy zz xy yz zx.
+std::array<double, 6> global_stress(const ShellFrame& f, double xx, double yy, double xy, double yz, double zx) {
+  const Vec3 columns[3] = {xx * f.axes[0] + xy * f.axes[1] + zx * f.axes[2], xy * f.axes[0] + yy * f.axes[1] + yz * f.axes[2],
+                           zx * f.axes[0] + yz * f.axes[1]};
+  const auto component = [&](int i, int j) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) sum += columns[k][i] * f.axes[k][j];
+    return sum;
+  };
+  return {component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(1, 2), component(2, 0)};
 }
 
 }  // namespace
@@ -279,6 +291,36 @@ std::vector<std::span<double>> ShellGroup::history() {
   return {std::span<double>(state_)};
 }
 
+std::array<double, 6> ShellGroup::layer_stress(Index element, ShellLayer layer) const {
+  if (!section_) return {};
+  const auto value = [&](int which) { return variable(element, which); };
+  using Kind = ShellLayer::Kind;
+  const bool has_points = section_->at_points >= 0;
+  int point = layer.kind == Kind::point ? layer.point - 1 : -1;
+  if (has_points && layer.kind == Kind::upper) point = section_->points - 1;
+  if (has_points && layer.kind == Kind::lower) point = 0;
+
+  std::array<double, 3> in_plane{};  // xx yy xy
+  if (point >= 0) {
+    if (point >= section_->points) return {};
+    for (int c = 0; c < 3; ++c) {
+      // LAW1 keeps no points: its stress is linear through the thickness, F + 12 zeta M.
+      in_plane[static_cast<std::size_t>(c)] =
+          has_points ? std::min(1.0, value(shell_state::off)) * value(section_->at_points + point * section_->point_size + c)
+                     : value(shell_state::f + c) + 12.0 * section_->zeta[point] * value(shell_state::m + c);
+    }
+  } else {
+    const double mean = layer.kind == Kind::bending ? 0.0 : 1.0;
+    const double moment = layer.kind == Kind::lower ? -6.0 : 6.0;
+    for (int c = 0; c < 3; ++c)
+      in_plane[static_cast<std::size_t>(c)] = mean * value(shell_state::f + c) + moment * value(shell_state::m + c);
+  }
+  const double shear = layer.kind == Kind::bending ? 0.0 : 1.0;
+  const std::array<Vec3, 4> x = corners(element, last_x_);
+  return global_stress(frame(std::span<const Vec3>(x.data(), per_element_)), in_plane[0], in_plane[1], in_plane[2],
+                       shear * value(shell_state::f + 3), shear * value(shell_state::f + 4));
+}
+
 ElementOutput ShellGroup::output(Index element) const {
   ElementOutput o;
   const std::array<Vec3, 4> x = corners(element, last_x_);
@@ -296,14 +338,7 @@ ElementOutput ShellGroup::output(Index element) const {
   const auto [xx, yy, xy, yz, zx] = std::array{o.resultants[0], o.resultants[1], o.resultants[2], o.resultants[3], o.resultants[4]};
   o.pressure = -(xx + yy) / 3.0;
   o.von_mises = std::sqrt(xx * xx + yy * yy - xx * yy + 3.0 * xy * xy);
-  const Vec3 columns[3] = {xx * f.axes[0] + xy * f.axes[1] + zx * f.axes[2], xy * f.axes[0] + yy * f.axes[1] + yz * f.axes[2],
-                           zx * f.axes[0] + yz * f.axes[1]};
-  const auto component = [&](int i, int j) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) sum += columns[k][i] * f.axes[k][j];
-    return sum;
-  };
-  o.stress = {component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(1, 2), component(2, 0)};
+  o.stress = global_stress(f, xx, yy, xy, yz, zx);
   for (int k = 0; section_->at_points >= 0 && k < section_->points; ++k) {
     const double p = variable(element, section_->at_points + k * section_->point_size + 3);
     o.plastic_min = k == 0 ? p : std::min(o.plastic_min, p);

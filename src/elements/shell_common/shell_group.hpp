@@ -36,6 +36,7 @@ class ShellGroup : public Group {
   /// @param rigid one flag per element of the group (group-local index)
   void set_rigid(std::span<const std::uint8_t> rigid) final;
   [[nodiscard]] ElementOutput output(Index element) const final;
+  [[nodiscard]] std::array<double, 6> layer_stress(Index element, ShellLayer layer) const final;
   [[nodiscard]] bool active(Index element) const final;
   [[nodiscard]] double thickness(Index element) const final;
   [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const final;

@@ -114,6 +114,7 @@ struct Scene {
   std::vector<cycle::WallResult> walls;
   std::vector<cycle::BodyResult> bodies;
   std::vector<cycle::SectionResult> sections;
+  std::vector<cycle::AccelerometerResult> accelerometers;
 
   Scene() {
     model.name = "scene";
@@ -178,6 +179,7 @@ struct Scene {
     walls.resize(1);
     bodies.resize(1);
     sections.resize(1);
+    accelerometers.resize(1);
   }
 
   template <std::size_t N>
@@ -203,6 +205,7 @@ struct Scene {
     s.walls = walls;
     s.bodies = bodies;
     s.sections = sections;
+    s.accelerometers = accelerometers;
     return s;
   }
 };
