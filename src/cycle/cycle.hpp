@@ -71,7 +71,7 @@ class Cycle {
   void record_contacts();
   void erode();
   void assemble();
-  void accelerate();
+  void accelerate_again();
   void release_boundary_conditions();
   void book_interfaces();
   void close_balance();
@@ -112,6 +112,7 @@ class Cycle {
   std::vector<double> contact_area_;
   bool releases_ = false;   // some interface asks for IBC
   bool loaded_ = false;     // there are concentrated or pressure loads; else external forces stay zero
+  bool totals_wanted_ = false;  // bodies, walls or mass scaling read or change the total forces or the masses after assembly
   bool rotations_ = false;  // some node has inertia, or can be turned by a condition
 
   std::unique_ptr<TimeStep> time_step_;
