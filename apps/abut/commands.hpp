@@ -31,8 +31,16 @@ struct CheckArguments {
   std::filesystem::path write_deck;
 };
 
+struct ReportArguments {
+  std::filesystem::path run;     ///< run folder
+  std::filesystem::path output;  ///< empty: RUN/report.html
+  bool all_fields = false;
+  bool quiet = false;
+};
+
 [[nodiscard]] int run_command(const RunArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
+[[nodiscard]] int report_command(const ReportArguments& arguments);
 
 /// @pre profile is "standard" or "reference", law is "", "stiffening" or "constant"
 [[nodiscard]] inline Choices choices_of(std::string_view profile, std::string_view law) {

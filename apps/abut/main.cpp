@@ -21,6 +21,7 @@ constexpr const char* examples = R"(Examples:
   abut check deck_0000.rad                      read, validate, inspect the contacts, summarise; nothing is written
   abut check deck_0000.rad --orient auto --write-deck fixed_0000.rad
                                                 turn contact surfaces to face each other and keep the result
+  abut report INT357                            put the run folder into one page: INT357/report.html
 
 DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it. A run writes NAME.out (listing),
 NAME_th.csv (time history), NAME.pvd (animation, open it with ParaView) and run.json.
@@ -70,6 +71,13 @@ int main(int argc, char** argv) {
   check_app->add_option("--orient", check_orient, orient_help)->check(orientations)->capture_default_str();
   check_app->add_option("--write-deck", check.write_deck, write_help)->needs("--orient");
 
+  ReportArguments report;
+  CLI::App* report_app = app.add_subcommand("report", "put a run folder into one HTML file that opens in any browser");
+  report_app->add_option("RUN", report.run, "folder that `abut run` filled")->required();
+  report_app->add_option("-o,--output", report.output, "file to write (default: RUN/report.html)");
+  report_app->add_flag("--all-fields", report.all_fields, "also what is left out of large runs: components of stress and velocity");
+  report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -82,6 +90,7 @@ int main(int argc, char** argv) {
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
   try {
+    if (report_app->parsed()) return report_command(report);
     return run_app->parsed() ? run_command(run) : check_command(check);
   } catch (const abut::InputError& e) {
     print_findings(e.diagnostics().all());

@@ -21,6 +21,7 @@
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
 #include "cycle/time_step.hpp"
+#include "elements/assembly.hpp"
 #include "init/contact_setup.hpp"
 #include "init/start.hpp"
 
@@ -84,7 +85,8 @@ class Cycle {
   std::vector<std::unique_ptr<elements::Group>> groups_;
   elements::Assembly assembly_;
   state::State state_;
-  std::vector<double> slots_;
+  std::vector<double> sums_;   // of chunks of elements
+  std::vector<double> slots_;  // of elements, when a section asks for them
 
   constraints::Curves curves_;
   constraints::Axes axes_;

@@ -11,6 +11,17 @@ namespace {
 
 constexpr Index group = 128;  // nodes handled together (numerics.md 7.3.1)
 
+// Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
+// after birth, which begins and ends at no speed.
+double kept_share(const Options& options, double before, double now) {
+  const auto left = [&options](double t) {
+    const double u = std::clamp((t - options.birth) / options.start_duration, 0.0, 1.0);
+    return (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
+  };
+  const double was = left(before);
+  return was > 0.0 ? left(now) / was : 0.0;
+}
+
 }  // namespace
 
 void SideLoads::resize(std::size_t nodes) {
@@ -37,6 +48,7 @@ PassTotals& PassTotals::operator+=(const PassTotals& b) {
   stick += b.stick;
   dissipated += b.dissipated;
   damped += b.damped;
+  started += b.started;
   largest_penetration = std::max(largest_penetration, b.largest_penetration);
   largest_approach = std::max(largest_approach, b.largest_approach);
   if (b.kinematic_step < kinematic_step) {
@@ -173,6 +185,8 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
     // The last damping force acts over half of the step that ends the contact.
     if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
     after.damping = 0.0;
+    sums.totals.started += 0.5 * before.force * growth(before);
+    after.force = 0.0;
     after.rate = 0.0;
     after.acceleration = 0.0;
     if (!anchors || any) {
@@ -196,6 +210,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
 
 PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads) {
   const Scene scene{host, held, surface, held_loads, surface_loads};
+  keep_ = options_.start_duration > 0.0 ? kept_share(options_, host.time - host.dt, host.time) : 1.0;
   groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
   const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;

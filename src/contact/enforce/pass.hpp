@@ -54,6 +54,7 @@ struct NodeState {
   double acceleration = 0.0;  ///< that the contact force gave to the opening
   double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
   double damping = 0.0;       ///< damping force of the last step
+  double force = 0.0;         ///< normal force of the last step, without damping
   std::int32_t facet = no_index;
   std::uint8_t held = 0;     ///< 1: came over a border; 2: came through the front, its strips widen with its depth
   std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
@@ -64,6 +65,7 @@ struct NodeState {
 struct PassTotals {
   Vec3 normal, tangential;  ///< on the held nodes
   double potential = 0.0, stick = 0.0, dissipated = 0.0, damped = 0.0;
+  double started = 0.0;  ///< work of a growing gap
   double largest_penetration = 0.0, largest_approach = 0.0;
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;
@@ -154,6 +156,7 @@ class Pass {
   bool stale_ = true;
   bool started_ = false;
   bool settled_ = false;  ///< initial penetrations are dealt with
+  double keep_ = 1.0;     ///< share of every node's offset that the gradual start leaves in this step
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
   std::vector<double> depth_;     ///< per facet: how far behind a node is still met
   std::vector<double> widening_;  ///< per facet: 1 / its length at the start
@@ -169,6 +172,8 @@ class Pass {
   Vec3 mean_step_;
 
   [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const;
+  /// How much of a node's offset the gradual start gives back to its gap in this step.
+  [[nodiscard]] double growth(const NodeState& before) const;
   /// Gap of a node at this distance, less what initial penetration takes from it.
   [[nodiscard]] double gap_of(double distance, NodeState& after) const;
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }

@@ -62,8 +62,10 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
-  const double closing = -motion.rate;
-  if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, closing * host.dt / options_.gap);
+  if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
+  // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
+  const double grown = growth(before);
+  const double closing = -motion.rate + (grown > 0.0 && host.dt > 0.0 ? grown / host.dt : 0.0);
   Reaction reaction;
   reaction.facet = touch.facet;
   reaction.weight = touch.weight;
@@ -122,7 +124,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, inverse_mass, others};
+    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others};
     const Switched switched = switched_force(s, fresh);
     factor = switched.force / touch.pair.magnitude;
     totals.potential += switched.stored;
@@ -132,6 +134,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   double normal_force = factor * touch.pair.magnitude;
   Vec3 on_node = factor * touch.pair.on_node;
   for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
+  totals.started += 0.5 * (before.force + normal_force) * grown;
+  after.force = normal_force;
   after.damping = 0.0;
   if (options_.damping > 0.0 && motion.inverse_mass > 0.0) {
     const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / motion.inverse_mass);

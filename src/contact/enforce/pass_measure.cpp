@@ -164,15 +164,17 @@ void Pass::share_among_equals(const Side& held, const Side& surface, const Measu
   touch.normal = normalized(normal);
 }
 
+double Pass::growth(const NodeState& before) const { return before.offset < never ? (1.0 - keep_) * before.offset : 0.0; }
+
 double Pass::gap_of(double distance, NodeState& after) const {
   const double full = options_.gap - distance;
   if (!settled_) {
-    if (full > 0.0 && options_.initial == Initial::offset) after.offset = full;
+    if (full > 0.0 && (options_.initial == Initial::offset || options_.start_duration > 0.0)) after.offset = full;
     if (full > 0.0 && options_.initial == Initial::ignore) after.offset = never;
   } else if (full <= 0.0) {
     after.offset = 0.0;
   } else if (after.offset < never) {
-    after.offset = std::min(after.offset, full);  // what the node has moved away is gap again
+    after.offset = std::min(keep_ * after.offset, full);  // what the node has moved away is gap again
   }
   return options_.gap - after.offset;
 }
