@@ -38,6 +38,11 @@ struct ReportArguments {
   bool quiet = false;
 };
 
+struct KeywordsArguments {
+  std::string word;  ///< empty: all
+};
+
+[[nodiscard]] int keywords_command(const KeywordsArguments& arguments);
 [[nodiscard]] int run_command(const RunArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
 [[nodiscard]] int report_command(const ReportArguments& arguments);

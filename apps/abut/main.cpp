@@ -21,6 +21,7 @@ constexpr const char* examples = R"(Examples:
   abut check deck_0000.rad                      read, validate, inspect the contacts, summarise; nothing is written
   abut check deck_0000.rad --orient auto --write-deck fixed_0000.rad
                                                 turn contact surfaces to face each other and keep the result
+  abut keywords INTER                           which contact keywords are read, and which of their fields
   abut report INT357                            put the run folder into one page: INT357/report.html
 
 DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it. A run writes NAME.out (listing),
@@ -78,6 +79,10 @@ int main(int argc, char** argv) {
   report_app->add_flag("--all-fields", report.all_fields, "also what is left out of large runs: components of stress and velocity");
   report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
 
+  KeywordsArguments keywords;
+  CLI::App* keywords_app = app.add_subcommand("keywords", "print what abut does with each keyword of a deck, as Markdown");
+  keywords_app->add_option("WORD", keywords.word, "only keywords that contain this word, e.g. INTER");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -90,6 +95,7 @@ int main(int argc, char** argv) {
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
   try {
+    if (keywords_app->parsed()) return keywords_command(keywords);
     if (report_app->parsed()) return report_command(report);
     return run_app->parsed() ? run_command(run) : check_command(check);
   } catch (const abut::InputError& e) {
