@@ -56,6 +56,11 @@ struct ReplayArguments {
   bool steps = false;  ///< a line per step
 };
 
+struct KeywordsArguments {
+  std::string word;  ///< empty: all
+};
+
+[[nodiscard]] int keywords_command(const KeywordsArguments& arguments);
 [[nodiscard]] int run_command(const RunArguments& arguments);
 [[nodiscard]] int resume_command(const ResumeArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);

@@ -25,6 +25,7 @@ constexpr const char* examples = R"(Examples:
   abut check deck_0000.rad                      read, validate, inspect the contacts, summarise; nothing is written
   abut check deck_0000.rad --orient auto --write-deck fixed_0000.rad
                                                 turn contact surfaces to face each other and keep the result
+  abut keywords INTER                           which contact keywords are read, and which of their fields
   abut report INT357                            put the run folder into one page: INT357/report.html
   abut run deck_0000.rad --record-contact 3     keep all inputs of interface 3 ...
   abut replay deck/deck_contact_3.calls         ... and compute its forces again from them alone
@@ -114,6 +115,10 @@ int main(int argc, char** argv) {
   replay_app->add_option("FILE", again.log, "NAME_contact_ID.calls, from abut run --record-contact or from another host")->required();
   replay_app->add_flag("--steps", again.steps, "print a line per step");
 
+  KeywordsArguments keywords;
+  CLI::App* keywords_app = app.add_subcommand("keywords", "print what abut does with each keyword of a deck, as Markdown");
+  keywords_app->add_option("WORD", keywords.word, "only keywords that contain this word, e.g. INTER");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -126,6 +131,7 @@ int main(int argc, char** argv) {
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
   try {
+    if (keywords_app->parsed()) return keywords_command(keywords);
     if (report_app->parsed()) return report_command(report);
     if (replay_app->parsed()) return replay_command(again);
     if (run_app->parsed()) return run_command(run);
