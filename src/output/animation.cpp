@@ -23,6 +23,7 @@
 #include "core/diagnostic.hpp"
 #include "output/animation_fields.hpp"
 #include "output/cell_shape.hpp"
+#include "output/contact_surfaces.hpp"
 #include "output/element_lookup.hpp"
 
 namespace abut::output {
@@ -247,6 +248,7 @@ void Animation::begin(const cycle::Snapshot& first) {
   // States of an earlier run in this folder would be mistaken for this one's.
   std::error_code ignored;
   std::filesystem::remove(folder_.animation_index(), ignored);
+  std::filesystem::remove(folder_.contact_surfaces(), ignored);
   std::vector<std::filesystem::path> stale;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.animation_folder(), ignored)) {
     const std::string file = entry.path().filename().string();
@@ -258,7 +260,10 @@ void Animation::begin(const cycle::Snapshot& first) {
 
 void Animation::cycle(const cycle::Snapshot& now) {
   if (!now.animation_due) return;
-  if (times_.empty()) create_folder(folder_.animation_folder());
+  if (times_.empty()) {
+    create_folder(folder_.animation_folder());
+    if (!now.model->interfaces.empty()) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*now.model));
+  }
   write_atomically(folder_.animation_state(static_cast<int>(times_.size())), grid_->serialise(now));
   times_.push_back(now.state->times.t);
   write_index();

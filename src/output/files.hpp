@@ -20,6 +20,8 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path animation_folder() const { return directory / (name + "_anim"); }
   /// State k (0-based) of the animation.
   [[nodiscard]] std::filesystem::path animation_state(int k) const;
+  /// Segments of the contact surfaces, as the deck has them.
+  [[nodiscard]] std::filesystem::path contact_surfaces() const { return directory / (name + "_contact.vtu"); }
   [[nodiscard]] std::filesystem::path manifest() const { return directory / "run.json"; }
 };
 

@@ -35,6 +35,7 @@ StepResult Interface::evaluate(const HostState& host, std::span<Vec3> force, std
 void Interface::commit(double dt) { model_->commit(dt); }
 void Interface::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const { model_->add_nodal_forces(normal, tangential); }
 void Interface::add_nodal_area(std::span<const Vec3> x, std::span<double> area) const { model_->add_nodal_area(x, area); }
+void Interface::add_nodal_contact(std::span<NodalContact> nodes) const { model_->add_nodal_contact(nodes); }
 std::span<const Index> Interface::nodes_in_contact() const { return model_->nodes_in_contact(); }
 std::vector<std::byte> Interface::history() const { return model_->history(); }
 void Interface::restore(std::span<const std::byte> history) { model_->restore(history); }

@@ -243,6 +243,12 @@ void OneSided::add_nodal_area(std::span<const Vec3> x, std::span<double> area) c
   }
 }
 
+void OneSided::add_nodal_contact(std::span<NodalContact> nodes) const {
+  if (!started_) return;
+  pass_[0].add_nodal_contact(side_[0], side_[1], nodes);
+  if (two_passes_) pass_[1].add_nodal_contact(side_[1], side_[0], nodes);
+}
+
 std::vector<std::byte> OneSided::history() const {
   HistoryWriter out;
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "contact/enforce/coefficient.hpp"
 #include "contact/enforce/switching.hpp"
@@ -67,7 +68,8 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       state_(held_nodes),
       next_(held_nodes),
-      quiet_(held_nodes, awake) {}
+      quiet_(held_nodes, awake),
+      slips_(held_nodes, 1) {}
 
 void Pass::start(const Side& held, const Side& surface) {
   started_ = true;
@@ -441,6 +443,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     const Vec3 on_surface = rules.reference_friction
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
+    slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
     held_loads.own_tangential[at(i)] = -on_surface;
     reaction.tangential = on_surface;
     totals.tangential -= on_surface;
@@ -517,6 +520,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
     evaluate_groups(0, groups_.size());
   }
 
+  committed_ = false;
   PassTotals totals;
   in_contact_.clear();
   for (const GroupSums& sums : groups_) {
@@ -537,7 +541,46 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   return totals;
 }
 
+double Pass::distance_to(const Side& held, const Side& surface, Index i) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!held.node_active(i)) return none;
+  const Vec3 x = held.x()[at(i)];
+  if (!closest()) {
+    const Index facet = tracked_[at(i)].facet;
+    if (facet == no_index || !surface.active(facet)) return none;
+    const PlainPoint p = project_plain(surface.patch(facet), x, options_.gap, options_.rules.area_ratio_projection);
+    return p.inside ? p.distance : none;
+  }
+  const NodeState& node = now(i);
+  if (node.held != 0 && node.facet != no_index && surface.active(node.facet)) return descend_to_nearest(surface, node.facet, x).distance;
+  if (!candidates_.made()) return none;
+  ClosestPoint nearest;
+  Index facet = no_index;
+  for (const Candidates::Entry& entry : candidates_.of(i)) {
+    if (!surface.active(entry.facet)) continue;
+    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
+    if (facet != no_index && !(other.squared_distance < nearest.squared_distance)) continue;
+    nearest = other;
+    facet = entry.facet;
+  }
+  return facet == no_index || nearest.beyond ? none : signed_measure(surface, facet, nearest, x).distance;
+}
+
+void Pass::add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const {
+  for (Index i = 0; i < held.node_count(); ++i) {
+    const NodeState& node = now(i);
+    NodalContact c;
+    c.opening = distance_to(held, surface, i) - options_.gap;
+    if (node.held != 0) {
+      c.state = slips_[at(i)] != 0 ? NodalContact::State::slip : NodalContact::State::stick;
+      c.penetration = std::max(0.0, (node.offset < never ? -node.offset : 0.0) - c.opening);
+    }
+    merge(nodes[at(held.nodes()[at(i)])], c);
+  }
+}
+
 PassTotals Pass::rest() {
+  committed_ = false;
   PassTotals totals;
   stale_ = true;
   in_contact_.clear();
@@ -552,7 +595,10 @@ PassTotals Pass::rest() {
   return totals;
 }
 
-void Pass::commit() { state_.swap(next_); }
+void Pass::commit() {
+  state_.swap(next_);
+  committed_ = true;
+}
 
 void Pass::save(HistoryWriter& out) const {
   out.put_all(state_);
