@@ -36,6 +36,7 @@ void Cycle::advance(Sink& sink) {
     const Timer timer(*this, p_constraints);
     sections_.gather(state_, slots_);  // 11
     bodies_.gather(state_, boundary_);
+    edited_work_ = take_over_edits();
     walls_.add_reaction(state_);                                                  // 12
     scaled_energy_ += time_step_->scale_masses(state_);                           // 13
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
@@ -48,14 +49,15 @@ void Cycle::advance(Sink& sink) {
     booked_work_ += imposed_.book_work(state_);
     walls_.apply(state_);  // 21
     booked_work_ += walls_.work();
-    boundary_.apply(state_);  // 22
-    bodies_.scatter(state_);  // 23
+    boundary_.apply(state_);         // 22
+    bodies_.scatter(state_);         // 23
+    accelerometers_.record(state_);  // 24
     book_interfaces();
     close_balance();  // 25
   }
   {
     const Timer timer(*this, p_output);  // 26
-    const Snapshot now = snapshot();
+    const Snapshot now = snapshot_of_cycle();
     if (!begun_) sink.begin(now);
     begun_ = true;
     sink.cycle(now);
@@ -77,10 +79,11 @@ void Cycle::decide_outputs() {
 void Cycle::internal_forces(StepLimits& limits) {
   const Timer timer(*this, p_elements);
   const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus};
+  const elements::StepOutput out{sums_.data(), slots_.empty() ? nullptr : slots_.data()};
   for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
   removed_energy_ = 0.0;
   for (const std::unique_ptr<elements::Group>& g : groups_) {
-    const elements::GroupResult r = g->step(in, slots_, pool_);
+    const elements::GroupResult r = g->step(in, out, pool_);
     if (r.bad_element != no_index) {
       throw RunError("element " + std::to_string(element_id(*g, r.bad_element)) + " of part " +
                      std::to_string(model_.parts[static_cast<std::size_t>(g->part())].id) +
@@ -143,10 +146,10 @@ void Cycle::contact_forces(StepLimits& limits) {
 
 void Cycle::assemble() {
   const Timer timer(*this, p_assembly);
-  const double* slots = slots_.data();
-  pool_.for_ranges(state_.mass.size(), node_grain, [this, slots](std::size_t begin, std::size_t end) {
+  const double* sums = sums_.data();
+  pool_.for_ranges(state_.mass.size(), node_grain, [this, sums](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const elements::NodalSum n = assembly_.sum(slots, i);
+      const elements::NodalSum n = assembly_.total(sums, i);
       state_.f_internal[i] = n.force;
       state_.f[i] = state_.f_external[i] - n.force + state_.f_contact[i];
       state_.stiffness[i] = n.stiffness + contact_stiffness_[i];

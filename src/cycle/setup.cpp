@@ -20,9 +20,10 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       options_(options),
       pool_(options.threads),
       groups_(init::make_groups(model, options.profile)),
-      assembly_(model.node_count(), model, groups_),
-      state_(init::make_state(model, groups_, assembly_)),
-      slots_(assembly_.slot_count(), 0.0),
+      assembly_(model.node_count(), groups_),
+      state_(init::make_state(model, groups_)),
+      sums_(assembly_.sum_count(), 0.0),
+      slots_(model.sections.empty() ? 0 : assembly_.slot_count(), 0.0),
       curves_(model),
       axes_(model),
       bodies_(model, options.profile),
@@ -31,7 +32,8 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       boundary_(model, axes_, bodies_, options.profile),
       imposed_(model, curves_, axes_, bodies_),
       walls_(model, bodies_, boundary_, imposed_, options.profile),
-      sections_(model, groups_) {
+      sections_(model, groups_),
+      accelerometers_(model, axes_) {
   const auto n = static_cast<std::size_t>(model.node_count());
   contact_stiffness_.assign(n, 0.0);
   contact_normal_.resize(n);

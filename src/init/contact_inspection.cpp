@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "init/contact_setup.hpp"
+#include "init/contact_stiffness.hpp"
 
 namespace abut::init {
 

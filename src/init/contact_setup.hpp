@@ -17,10 +17,6 @@
 
 namespace abut::init {
 
-/// Own stiffness of a segment: E t for a shell (property thickness), B A^2 / V for a brick or tetrahedron face (T16..T18);
-/// 0 without an element behind it.
-[[nodiscard]] double segment_stiffness(const model::Model& model, const model::Segment& segment, std::span<const Vec3> x);
-
 /// One interface of the model with its facets' elements.
 struct RunInterface {
   Index model_index = no_index;

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "abut/model.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "core/diagnostic.hpp"
@@ -18,11 +19,7 @@ namespace abut::model {
 
 inline constexpr double infinity = 1e30;  ///< "never", "no limit" of the deck format
 
-/// Size of the work units in SI (kg, m, s) and their names as the deck writes them.
-struct Units {
-  double mass = 1.0, length = 1.0, time = 1.0;
-  std::string mass_name = "kg", length_name = "m", time_name = "s";
-};
+using abut::Units;
 
 // ---- materials (numerics.md 5) ------------------------------------------------------------------------------------
 
@@ -101,7 +98,7 @@ struct Elements {
   [[nodiscard]] Index size() const { return static_cast<Index>(id.size()); }
 };
 
-enum class ElementKind { none, shell4, shell3, brick, tetra };
+using abut::ElementKind;
 
 struct ElementRef {
   ElementKind kind = ElementKind::none;
@@ -283,6 +280,14 @@ struct Section {
   std::vector<Index> interfaces;
 };
 
+/// /ACCEL: the acceleration of a node along the axes of a skew, low-pass filtered.
+struct Accelerometer {
+  Id id = 0;
+  Index node = no_index;
+  Index skew = no_index;
+  double cut_off = 0.0;  ///< frequency, 1/time; 0: not filtered
+};
+
 // ---- outputs ------------------------------------------------------------------------------------------------------
 
 enum class ThKind { node, part, shell, sh3n, brick, inter, rwall, rbody, section, accelerometer };
@@ -367,6 +372,7 @@ struct Model {
   std::vector<RigidWall> rigid_walls;
   std::vector<Interface> interfaces;
   std::vector<Section> sections;
+  std::vector<Accelerometer> accelerometers;
   std::vector<ThRequest> th_requests;
   Controls controls;
   std::vector<SkippedKeyword> skipped;

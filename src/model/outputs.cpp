@@ -12,12 +12,6 @@ namespace abut::model {
 
 namespace {
 
-struct Accelerometer {
-  Index node = no_index;
-  Index skew = no_index;
-};
-using Accelerometers = std::map<Id, Accelerometer>;
-
 void read_section(Context& c, const deck::Block& block) {
   if (!is_id(block.word(1))) {
     c.diagnostics->warning("model.left_out", c.deck->place(block), "this form of section is not supported; it is left out (use /SECT/id)");
@@ -70,15 +64,18 @@ void read_section(Context& c, const deck::Block& block) {
   c.model->sections.push_back(std::move(s));
 }
 
-void read_accelerometer(Context& c, const deck::Block& block, Accelerometers& all) {
+void read_accelerometer(Context& c, const deck::Block& block) {
   BlockReader r(c, block, 1, true);
   r.next_card();
   Accelerometer a;
+  a.id = r.id();
   const Id node = r.integer({1, 10}, "node_ID");
   if (node == 0) r.error("model.missing_reference", {1, 10}, "node_ID", "no node is given; write the id of a /NODE");
   a.node = r.resolve(c.tables.nodes, node, "/NODE", {1, 10}, "node_ID");
   a.skew = read_skew(r, {11, 20}, "skew_ID");
-  all.emplace(r.id(), a);
+  a.cut_off = r.real({31, 50}, "Fcut", dim::rate);
+  if (a.cut_off < 0.0) r.error("model.out_of_range", {31, 50}, "Fcut", "a cut-off frequency is positive, or 0 for none");
+  if (a.node != no_index) c.model->accelerometers.push_back(a);
 }
 
 /// A line of /TH belongs to the names as long as its first field is not an integer; a blank first line asks for DEF.
@@ -97,7 +94,7 @@ int variable_lines(const Context& c, const deck::Block& block) {
 
 class HistoryReader {
  public:
-  HistoryReader(Context& c, const Accelerometers& accelerometers) : c_(c), accelerometers_(accelerometers) {}
+  explicit HistoryReader(Context& c) : c_(c) {}
 
   void read(const deck::Block& block) {
     const std::optional<ThKind> kind = th_kind(block.word(1));
@@ -188,6 +185,8 @@ class HistoryReader {
         return t.rigid_walls;
       case ThKind::rbody:
         return t.rigid_bodies;
+      case ThKind::accelerometer:
+        return t.accelerometers;
       default:
         return t.sections;
     }
@@ -206,16 +205,9 @@ class HistoryReader {
     request.kind = kind;
     request.id = id;
     request.skew = skew;
-    if (kind == ThKind::accelerometer) {
-      const auto found = accelerometers_.find(id);
-      if (found == accelerometers_.end()) return warn_missing(r, kind, id);
-      request.index = found->second.node;
-      request.skew = found->second.skew;
-    } else {
-      const auto found = table(kind).find(id);
-      if (found == table(kind).end()) return warn_missing(r, kind, id);
-      request.index = found->second;
-    }
+    const auto found = table(kind).find(id);
+    if (found == table(kind).end()) return warn_missing(r, kind, id);
+    request.index = found->second;
     request.name = name.empty() ? title_of(kind, request.index) : std::move(name);
     auto& entry = requests_.try_emplace({kind, id, request.skew}, std::pair{request, std::set<std::string>{}}).first->second;
     entry.second.insert(variables.begin(), variables.end());
@@ -227,7 +219,6 @@ class HistoryReader {
   }
 
   Context& c_;
-  const Accelerometers& accelerometers_;
   std::map<std::tuple<ThKind, Id, Index>, std::pair<ThRequest, std::set<std::string>>> requests_;
 };
 
@@ -240,14 +231,15 @@ bool is_history(const deck::Block& block) {
 }  // namespace
 
 void read_outputs(Context& c) {
-  Accelerometers accelerometers;
   for (const deck::Block& block : c.deck->blocks) {
     if (is_keyword(block, "SECT")) read_section(c, block);
-    if (is_keyword(block, "ACCEL")) read_accelerometer(c, block, accelerometers);
+    if (is_keyword(block, "ACCEL")) read_accelerometer(c, block);
   }
   order_by_id(c, c.model->sections, "SECT", false);
   fill_table(c.tables.sections, c.model->sections);
-  HistoryReader histories(c, accelerometers);
+  order_by_id(c, c.model->accelerometers, "ACCEL", false);
+  fill_table(c.tables.accelerometers, c.model->accelerometers);
+  HistoryReader histories(c);
   for (const deck::Block& block : c.deck->blocks) {
     if (is_history(block)) histories.read(block);
   }

@@ -205,6 +205,8 @@ void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
       const elements::Group& group = *now.groups[static_cast<std::size_t>(place.group)];
       sample.output = group.output(place.element);
       sample.mass = group.element_mass(place.element);
+      sample.group = &group;
+      sample.element = place.element;
     }
     if (sample.output.off == 0.0) continue;
     shown.push_back(static_cast<Index>(e));

@@ -1,6 +1,8 @@
 #include "output/animation_fields.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -78,6 +80,29 @@ bool is_always_there(std::string_view s) {
   return names.contains(s);
 }
 
+CellField layer_field(std::string name, elements::ShellLayer layer) {
+  return {std::move(name), 6, [layer](const ElementSample& e, double* out) {
+            const std::array<double, 6> s = e.group != nullptr ? e.group->layer_stress(e.element, layer) : std::array<double, 6>{};
+            std::copy(s.begin(), s.end(), out);
+          }};
+}
+
+/// Fields of "TENS/STRESS/UPPER" and its like; none for what is not a layer.
+std::vector<CellField> layer_fields(std::string_view selection) {
+  using Kind = elements::ShellLayer::Kind;
+  constexpr std::string_view stresses = "TENS/STRESS/";
+  if (!selection.starts_with(stresses)) return {};
+  const std::string_view layer = selection.substr(stresses.size());
+  if (layer == "UPPER") return {layer_field("stress_upper", {Kind::upper})};
+  if (layer == "LOWER") return {layer_field("stress_lower", {Kind::lower})};
+  if (layer == "BEND") return {layer_field("stress_bending", {Kind::bending})};
+  if (layer == "ALL") return {layer_field("stress_upper", {Kind::upper}), layer_field("stress_lower", {Kind::lower})};
+  int point = 0;
+  const auto [end, fault] = std::from_chars(layer.data(), layer.data() + layer.size(), point);
+  if (fault != std::errc{} || end != layer.data() + layer.size() || point < 1) return {};
+  return {layer_field("stress_point_" + std::to_string(point), {Kind::point, point})};
+}
+
 /// "SHELL/EPSP" and "BRICK/EPSP" ask for the same field as "ELEM/EPSP"; "BRICK/TENS/STRESS" as "TENS/STRESS".
 std::string normalised(std::string s) {
   for (const std::string_view type : {"SHELL/", "BRICK/", "SH3N/", "SOLID/", "ELEM/"}) {
@@ -88,18 +113,27 @@ std::string normalised(std::string s) {
   return s;
 }
 
+const std::vector<std::pair<std::string_view, NodeField>>& selectable_node_fields() {
+  static const std::vector<std::pair<std::string_view, NodeField>> table{{"VECT/ACC", acceleration},
+                                                                         {"VECT/VROT", angular_velocity},
+                                                                         {"VECT/FINT", internal_force},
+                                                                         {"VECT/FEXT", external_force},
+                                                                         {"MASS", mass}};
+  return table;
+}
+
+const std::vector<std::pair<std::string_view, CellField>>& selectable_cell_fields() {
+  static const std::vector<std::pair<std::string_view, CellField>> table{{"ELEM/ENER", energy},    {"ELEM/P", pressure},
+                                                                         {"ELEM/DENS", density},   {"ELEM/HOURG", hourglass},
+                                                                         {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
+  return table;
+}
+
 }  // namespace
 
 AnimationFields select_animation_fields(const std::vector<std::string>& selections) {
-  static const std::vector<std::pair<std::string_view, NodeField>> node_fields{{"VECT/ACC", acceleration},
-                                                                               {"VECT/VROT", angular_velocity},
-                                                                               {"VECT/FINT", internal_force},
-                                                                               {"VECT/FEXT", external_force},
-                                                                               {"MASS", mass}};
-  static const std::vector<std::pair<std::string_view, CellField>> cell_fields{{"ELEM/ENER", energy},    {"ELEM/P", pressure},
-                                                                               {"ELEM/DENS", density},   {"ELEM/HOURG", hourglass},
-                                                                               {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
-
+  const auto& node_fields = selectable_node_fields();
+  const auto& cell_fields = selectable_cell_fields();
   AnimationFields fields{
       {displacement, velocity, contact_force, pressure_normal, pressure_tangential, contact_gap, contact_penetration, contact_state},
       {plastic_strain, von_mises, stress}, {}};
@@ -114,11 +148,20 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
       add_once(fields.nodes, n->second);
     } else if (const auto c = std::find_if(cell_fields.begin(), cell_fields.end(), same); c != cell_fields.end()) {
       add_once(fields.cells, c->second);
+    } else if (const std::vector<CellField> layers = layer_fields(s); !layers.empty()) {
+      for (const CellField& field : layers) add_once(fields.cells, field);
     } else if (std::find(fields.left_out.begin(), fields.left_out.end(), selection) == fields.left_out.end()) {
       fields.left_out.push_back(selection);
     }
   }
   return fields;
+}
+
+AnimationFields every_animation_field() {
+  std::vector<std::string> selections;
+  for (const auto& entry : selectable_node_fields()) selections.emplace_back(entry.first);
+  for (const auto& entry : selectable_cell_fields()) selections.emplace_back(entry.first);
+  return select_animation_fields(selections);
 }
 
 }  // namespace abut::output

@@ -165,6 +165,11 @@ const VectorTable<cycle::SectionResult>& vectors(const cycle::SectionResult*) {
       {"FN", &R::normal_force}, {"FT", &R::tangential_force}, {"IFN", &R::normal_impulse}, {"IFT", &R::tangential_impulse}};
   return table;
 }
+const VectorTable<cycle::AccelerometerResult>& vectors(const cycle::AccelerometerResult*) {
+  using R = cycle::AccelerometerResult;
+  static const VectorTable<R> table{{"A", &R::filtered}, {"W", &R::integral}};
+  return table;
+}
 const VectorTable<cycle::BodyResult>& vectors(const cycle::BodyResult*) {
   using R = cycle::BodyResult;
   static const VectorTable<R> table{
@@ -354,7 +359,7 @@ class Builder {
       case model::ThKind::section:
         return section_value(variable, request.index);
       case model::ThKind::accelerometer:
-        return {};
+        return vector_value(variable, &Snapshot::accelerometers, request.index);
     }
     return {};
   }

@@ -3,25 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
-#include "contact/enforce/coefficient.hpp"
-#include "contact/enforce/switching.hpp"
 #include "contact/project/plain.hpp"
-#include "contact/search/swept.hpp"
 
 namespace abut::contact {
 namespace {
 
-constexpr Index group = 128;         // nodes handled together (numerics.md 7.3.1)
-constexpr double never = 1e300;      // offset of a node that is ignored
-constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
+constexpr Index group = 128;  // nodes handled together (numerics.md 7.3.1)
 
-Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
-  Patch patch = side.patch(f);
-  const std::array<Index, 4>& local = side.surface().local()[at(f)];
-  for (std::size_t i = 0; i < 4; ++i) patch.x[i] = x[at(local[i])];
-  return patch;
+// Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
+// after birth, which begins and ends at no speed.
+double kept_share(const Options& options, double before, double now) {
+  const auto left = [&options](double t) {
+    const double u = std::clamp((t - options.birth) / options.start_duration, 0.0, 1.0);
+    return (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
+  };
+  const double was = left(before);
+  return was > 0.0 ? left(now) / was : 0.0;
 }
 
 }  // namespace
@@ -50,6 +48,7 @@ PassTotals& PassTotals::operator+=(const PassTotals& b) {
   stick += b.stick;
   dissipated += b.dissipated;
   damped += b.damped;
+  started += b.started;
   largest_penetration = std::max(largest_penetration, b.largest_penetration);
   largest_approach = std::max(largest_approach, b.largest_approach);
   if (b.kinematic_step < kinematic_step) {
@@ -75,10 +74,13 @@ void Pass::start(const Side& held, const Side& surface) {
   started_ = true;
   size_ = surface.mean_size();
   depth_.resize(at(surface.facet_count()));
+  widening_.resize(at(surface.facet_count()));
   for (Index f = 0; f < surface.facet_count(); ++f) {
+    const double length = std::sqrt(surface.facet_area(f));
+    widening_[at(f)] = length > 0.0 ? 1.0 / length : 0.0;
     double depth = options_.depth_limit;
     if (depth <= 0.0) {
-      depth = 0.5 * std::sqrt(surface.facet_area(f));
+      depth = 0.5 * length;
       if (surface.thickness(f) > 0.0) depth = std::min(depth, std::max(surface.thickness(f), options_.gap));
     }
     depth_[at(f)] = depth;
@@ -141,314 +143,11 @@ void Pass::search(const Side& held, const Side& surface, const SideLoads& surfac
   surface_step_ = std::sqrt(surface_step_);
 }
 
-bool Pass::far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
-  // Neither the motion of the last step nor that of the coming one may come near a quarter of the way.
-  const double clear = 0.25 * std::min(smallest_depth_, candidates_.nearest_due(i) - candidates_.clock() - options_.gap) - surface_step_;
-  if (clear <= 0.0) return false;
-  const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
-  const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;
-  return std::max(squared_norm(last), squared_norm(coming)) < clear * clear;
-}
-
 bool Pass::asleep(const Scene& scene, Index i) const {
   const std::uint8_t quiet = quiet_[at(i)];
   if (quiet == awake || scene.host.dt <= 0.0) return false;
   if (quiet == nothing_listed && !candidates_.of(i).empty()) return false;
   return far(scene.host, scene.held, scene.held_loads, i);
-}
-
-Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
-  const Vec3 x = held.x()[at(i)];
-  const Vec3 before = held_loads.x_before[at(i)];
-  if (norm(x - before - mean_step_) + surface_step_ <= smallest_depth_) return no_index;
-  Bounds path;
-  path.include(x);
-  path.include(before + mean_step_);
-  Index hit = no_index;
-  double earliest = 2.0;
-  candidates_.near(path, surface_step_, [&](Index f) {
-    if (!surface.active(f)) return;
-    for (const Index n : surface.surface().facets()[at(f)].node) {
-      if (n == held.nodes()[at(i)]) return;
-    }
-    const Crossing c = crosses(patch_at(surface, surface_loads.x_before, f), before, surface.patch(f), x);
-    if (c.crossed && (c.fraction < earliest || (c.fraction == earliest && f < hit))) {
-      earliest = c.fraction;
-      hit = f;
-    }
-  });
-  return hit;
-}
-
-void Pass::measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
-                           const SideLoads& surface_loads, Index i, Touch& touch) {
-  const NodeState& before = state_[at(i)];
-  NodeState& after = next_[at(i)];
-  touch = {};
-  if (!held.node_active(i)) return;
-  const Vec3 x = held.x()[at(i)];
-  const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
-  if (before.in_front != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
-    if (far(host, held, held_loads, i)) {
-      touch.far = true;
-      after.offset = 0.0;
-      return;
-    }
-  }
-  Measure m;
-  if (was_held || !candidates_.of(i).empty())
-    m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal} : HeldBy{});
-  const auto take = [&](const Measure& measure) {
-    touch.facet = measure.facet;
-    touch.known = true;
-    touch.weight = measure.closest.weight;
-    touch.point = measure.closest.point;
-    touch.normal = measure.normal;
-    touch.distance = measure.distance;
-  };
-  bool meets = false;
-  double gap = options_.gap;
-  after.in_front = m.found() && !m.closest.beyond && m.distance >= 0.0 ? 1 : 0;
-  if (m.found()) {
-    take(m);
-    gap = gap_of(m.distance, after);
-    meets = !m.closest.beyond && gap - m.distance > 0.0;
-    if (!m.closest.beyond && m.distance >= 0.0) after.ignored = 0;
-    if (meets && !was_held && m.distance < 0.0 && !options_.rules.unlimited_depth) {
-      const double depth = depth_[at(m.facet)];
-      const double came_from = m.distance - host.dt * kinematics(host, held, surface, i, touch).rate;
-      if (-m.distance > depth || (host.dt > 0.0 && came_from < -depth)) after.ignored = 1;
-      if (after.ignored != 0) meets = false;
-    }
-  } else {
-    after.ignored = 0;
-    after.offset = 0.0;
-  }
-  if (!meets && !was_held && before.ignored == 0 && after.offset == 0.0 && host.dt > 0.0) {
-    const Index hit = swept_facet(held, surface, held_loads, surface_loads, i);
-    if (hit != no_index) {
-      const Measure caught = descend_to_nearest(surface, hit, x);
-      if (!caught.closest.beyond && caught.distance < 0.0) {
-        m = caught;
-        take(m);
-        meets = true;
-        touch.fresh_hit = true;
-        after.ignored = 0;
-      }
-    }
-  }
-  if (!touch.known) return;
-  touch.penetration = gap - m.distance;
-  touch.pair = pair_force(surface, m, x, law_, gap, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_);
-  touch.contact = meets && touch.pair.magnitude > 0.0;
-}
-
-double Pass::gap_of(double distance, NodeState& after) const {
-  const double full = options_.gap - distance;
-  if (!settled_) {
-    if (full > 0.0 && options_.initial == Initial::offset) after.offset = full;
-    if (full > 0.0 && options_.initial == Initial::ignore) after.offset = never;
-  } else if (full <= 0.0) {
-    after.offset = 0.0;
-  } else if (after.offset < never) {
-    after.offset = std::min(after.offset, full);  // what the node has moved away is gap again
-  }
-  return options_.gap - after.offset;
-}
-
-void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& touch) {
-  touch = {};
-  const Tracked& t = tracked_[at(i)];
-  if (t.facet == no_index || !surface.active(t.facet) || !held.node_active(i)) return;
-  const Vec3 x = held.x()[at(i)];
-  const PlainPoint p = project_plain(surface.patch(t.facet), x, options_.gap, options_.rules.area_ratio_projection);
-  if (!p.inside) return;
-  touch.known = true;
-  touch.facet = t.facet;
-  touch.weight = p.weight;
-  touch.point = p.point;
-  touch.normal = p.normal;
-  touch.distance = p.distance;
-  const double penetration = gap_of(p.distance, next_[at(i)]) - p.distance;
-  touch.penetration = penetration;
-  const double k1 = surface.facet_stiffness(t.facet);
-  const double k2 = held.node_stiffness(i);
-  PairForce& pair = touch.pair;
-  pair.stiffness = half_of_facet_  ? 0.5 * options_.stiffness_scale * k1
-                   : k1 + k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2)
-                                   : 0.0;
-  if (penetration <= 0.0) return;
-  const bool too_deep = !options_.rules.unlimited_depth && state_[at(i)].held == 0 && -p.distance > depth_[at(t.facet)];
-  if (too_deep) return;
-  pair.magnitude = pair.stiffness * law_.force(penetration);
-  pair.potential = pair.stiffness * law_.potential(penetration);
-  pair.on_node = pair.magnitude * p.normal;
-  for (std::size_t k = 0; k < 4; ++k) pair.on_facet[k] = -p.weight[k] * pair.on_node;
-  // A node without stiffness (its elements are gone) still counts as projected, with no force.
-  touch.contact = true;
-}
-
-Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
-  Kinematics k;
-  const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  const Index node = held.nodes()[at(i)];
-  Vec3 v = host.v[at(node)];
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (touch.weight[c] != 0.0) v -= touch.weight[c] * host.v[at(surface.nodes()[at(corner[c])])];
-  }
-  k.rate = dot(v, touch.normal);
-  k.tangential_velocity = v - k.rate * touch.normal;
-  if (!host.mass.empty()) {
-    const auto inverse = [&host](Index n) { return host.mass[at(n)] > 0.0 ? 1.0 / host.mass[at(n)] : 0.0; };
-    k.inverse_mass = inverse(node);
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (touch.weight[c] != 0.0) k.inverse_mass += touch.weight[c] * touch.weight[c] * inverse(surface.nodes()[at(corner[c])]);
-    }
-  }
-  return k;
-}
-
-void Pass::look_ahead(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i) const {
-  // No facet known within reach: only a node that flies further than the lists see can touch in the coming step.
-  const Index node = held.nodes()[at(i)];
-  const Vec3 v = host.v[at(node)] - (host.dt > 0.0 ? mean_step_ / host.dt : Vec3{});
-  const Vec3 flight = (1.5 * step_growth * host.dt) * v;
-  if (norm(flight) + 2.0 * surface_step_ <= std::max(options_.gap, smallest_depth_)) return;
-  Bounds path;
-  path.include(held.x()[at(i)]);
-  path.include(held.x()[at(i)] + flight);
-  double largest = 0.0;
-  candidates_.near(path, options_.gap + 2.0 * surface_step_, [&](Index f) {
-    const double k1 = surface.facet_stiffness(f);
-    const double k2 = held.node_stiffness(i);
-    const double pair = half_of_facet_  ? 0.5 * options_.stiffness_scale * k1
-                        : k1 + k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2)
-                                        : 0.0;
-    largest = std::max(largest, pair);
-  });
-  held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
-  held_loads.loaded[at(i)] |= SideLoads::now;
-}
-
-void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
-                       GroupSums& sums) {
-  PassTotals& totals = sums.totals;
-  const NodeState& before = state_[at(i)];
-  NodeState& after = next_[at(i)];
-  const Rules& rules = options_.rules;
-  if (!touch.known) {
-    if (!closest() || touch.far || !rules.limits_step || host.dt <= 0.0) return;
-    look_ahead(host, held, surface, held_loads, i);
-    return;
-  }
-  const double penetration = touch.penetration;
-  const Kinematics motion = kinematics(host, held, surface, i, touch);
-  const double closing = -motion.rate;
-  if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, closing * host.dt / options_.gap);
-  Reaction reaction;
-  reaction.facet = touch.facet;
-  reaction.weight = touch.weight;
-
-  // Stiffness for the coming step, also where contact may begin in it.
-  if (rules.limits_step) {
-    const double ahead = 1.5 * step_growth * host.dt * std::max(closing, 0.0);
-    const bool may_touch = host.dt > 0.0 ? penetration + ahead > 0.0 : penetration > -0.25 * size_;
-    if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
-      const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
-      double tangent = touch.pair.stiffness * law_.tangent(reached) + touch.pair.extra_tangent;
-      if (options_.rubs()) {
-        const double pressure = touch.pair.magnitude / surface.facet_area(touch.facet);
-        const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
-        tangent *= std::sqrt(1.0 + mu * mu);
-      }
-      if (options_.damping > 0.0) {
-        // With viscous forces from the step before, h^2 K/4 + h C/2 <= 1: in the terms of one spring (sqrt(1 + z^2) + z)^2, or 2 C/h.
-        const double z = options_.damping;
-        const double root = std::sqrt(1.0 + z * z) + z;
-        const double c = motion.inverse_mass > 0.0 ? 2.0 * z * std::sqrt(tangent / motion.inverse_mass) : 0.0;
-        tangent = std::max(tangent * root * root, host.dt > 0.0 ? tangent + 2.0 * c / host.dt : 0.0);
-      }
-      double spread = 0.0;
-      for (const double w : touch.weight) spread += std::abs(w);
-      tangent *= 0.5 * (1.0 + spread);
-      held_loads.own_stiffness[at(i)] += tangent;
-      held_loads.loaded[at(i)] |= SideLoads::now;
-      reaction.stiffness = tangent;
-    }
-    if (law_.stiffens() && closing > 0.0) {
-      const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);
-      if (0.5 * room / closing < totals.kinematic_step) {
-        totals.kinematic_step = 0.5 * room / closing;
-        totals.kinematic_node = held.nodes()[at(i)];
-      }
-    }
-  }
-
-  if (!touch.contact) {  // history of a contact that ends: closed by the caller
-    if (reaction.stiffness > 0.0) sums.reactions.push_back(reaction);
-    return;
-  }
-  totals.in_contact += 1;
-  totals.crossed += touch.fresh_hit ? 1 : 0;
-  totals.largest_penetration = std::max(totals.largest_penetration, penetration);
-  sums.in_contact.push_back(held.nodes()[at(i)]);
-
-  const bool fresh = before.held == 0;
-  double fraction = 1.0;  // of the last step in contact
-  double factor = 1.0;
-  const double moved_in = closing * host.dt;
-  // With two passes the facing surface's own springs act on this pair too, as strongly as this one where the meshes face.
-  const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * motion.inverse_mass;
-  if (fresh && moved_in > penetration) fraction = penetration / moved_in;
-  if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
-    const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, inverse_mass, others};
-    const Switched switched = switched_force(s, fresh);
-    factor = switched.force / touch.pair.magnitude;
-    totals.potential += switched.stored;
-  } else {
-    totals.potential += touch.pair.potential;
-  }
-  double normal_force = factor * touch.pair.magnitude;
-  Vec3 on_node = factor * touch.pair.on_node;
-  for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
-  after.damping = 0.0;
-  if (options_.damping > 0.0 && motion.inverse_mass > 0.0) {
-    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / motion.inverse_mass);
-    after.damping = std::max(-c * motion.rate, -normal_force);
-    totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
-    on_node += after.damping * touch.normal;
-    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= touch.weight[k] * after.damping * touch.normal;
-  }
-  held_loads.own_normal[at(i)] = on_node;
-  held_loads.loaded[at(i)] |= SideLoads::now;
-  totals.normal += on_node;
-
-  after.held = 1;
-  after.facet = touch.facet;
-  after.normal = touch.normal;
-  after.rate = motion.rate;
-  after.acceleration = (normal_force + after.damping) * inverse_mass;
-  normal_force += after.damping;
-
-  if (options_.rubs() && rub) {
-    const double mu = friction_coefficient(options_.friction_law, options_.friction, normal_force / surface.facet_area(touch.facet),
-                                           norm(motion.tangential_velocity));
-    double limit = mu * normal_force;
-    if (options_.shear_limit < 1e29 && !rules.reference_friction) {
-      const double own_area = held.facet_count() > 0 ? held.tributary_area(i) : surface.facet_area(touch.facet);
-      // Two passes act on the same area: each may carry half of the stress.
-      limit = std::min(limit, (two_passes_ ? 0.5 : 1.0) * options_.shear_limit * own_area);
-    }
-    const Vec3 on_surface = rules.reference_friction
-                                ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
-                                : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
-    slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
-    held_loads.own_tangential[at(i)] = -on_surface;
-    reaction.tangential = on_surface;
-    totals.tangential -= on_surface;
-  }
-  sums.reactions.push_back(reaction);
 }
 
 void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touches, GroupSums& sums) {
@@ -457,6 +156,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
   sums.totals = {};
   sums.reactions.clear();
   sums.in_contact.clear();
+  sums.equals.clear();
   std::array<Index, at(group)> nodes;
   std::size_t count = 0;
   bool any = false;
@@ -467,7 +167,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
     nodes[count++] = i;
     next_[at(i)] = state_[at(i)];
     if (closest()) {
-      measure_closest(host, held, surface, held_loads, surface_loads, i, touch);
+      measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
     } else {
       measure_plain(held, surface, i, touch);
     }
@@ -486,6 +186,8 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
     // The last damping force acts over half of the step that ends the contact.
     if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
     after.damping = 0.0;
+    sums.totals.started += 0.5 * before.force * growth(before);
+    after.force = 0.0;
     after.rate = 0.0;
     after.acceleration = 0.0;
     if (!anchors || any) {
@@ -509,6 +211,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
 
 PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads) {
   const Scene scene{host, held, surface, held_loads, surface_loads};
+  keep_ = options_.start_duration > 0.0 ? kept_share(options_, host.time - host.dt, host.time) : 1.0;
   groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
   const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;
@@ -541,44 +244,6 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   return totals;
 }
 
-double Pass::distance_to(const Side& held, const Side& surface, Index i) const {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!held.node_active(i)) return none;
-  const Vec3 x = held.x()[at(i)];
-  if (!closest()) {
-    const Index facet = tracked_[at(i)].facet;
-    if (facet == no_index || !surface.active(facet)) return none;
-    const PlainPoint p = project_plain(surface.patch(facet), x, options_.gap, options_.rules.area_ratio_projection);
-    return p.inside ? p.distance : none;
-  }
-  const NodeState& node = now(i);
-  if (node.held != 0 && node.facet != no_index && surface.active(node.facet)) return descend_to_nearest(surface, node.facet, x).distance;
-  if (!candidates_.made()) return none;
-  ClosestPoint nearest;
-  Index facet = no_index;
-  for (const Candidates::Entry& entry : candidates_.of(i)) {
-    if (!surface.active(entry.facet)) continue;
-    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
-    if (facet != no_index && !(other.squared_distance < nearest.squared_distance)) continue;
-    nearest = other;
-    facet = entry.facet;
-  }
-  return facet == no_index || nearest.beyond ? none : signed_measure(surface, facet, nearest, x).distance;
-}
-
-void Pass::add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const {
-  for (Index i = 0; i < held.node_count(); ++i) {
-    const NodeState& node = now(i);
-    NodalContact c;
-    c.opening = distance_to(held, surface, i) - options_.gap;
-    if (node.held != 0) {
-      c.state = slips_[at(i)] != 0 ? NodalContact::State::slip : NodalContact::State::stick;
-      c.penetration = std::max(0.0, (node.offset < never ? -node.offset : 0.0) - c.opening);
-    }
-    merge(nodes[at(held.nodes()[at(i)])], c);
-  }
-}
-
 PassTotals Pass::rest() {
   committed_ = false;
   PassTotals totals;
@@ -604,6 +269,7 @@ void Pass::save(HistoryWriter& out) const {
   out.put_all(state_);
   out.put(static_cast<std::uint64_t>(started_ ? depth_.size() : 0));
   for (const double d : depth_) out.put(d);
+  for (const double w : widening_) out.put(w);
   out.put(size_);
   out.put(settled_);
   for (const Tracked& t : tracked_) out.put(t);
@@ -617,6 +283,8 @@ void Pass::load(HistoryReader& in) {
   started_ = facets > 0;
   depth_.resize(facets);
   for (double& d : depth_) in.get(d);
+  widening_.resize(facets);
+  for (double& w : widening_) in.get(w);
   limit_depths();
   in.get(size_);
   in.get(settled_);

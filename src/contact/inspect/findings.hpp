@@ -3,12 +3,30 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/inspect/facing.hpp"
 #include "contact/inspect/shape.hpp"
 
 namespace abut::contact {
+
+/// "12 facets", "1 facet".
+[[nodiscard]] std::string counted(std::size_t n, const char* one, const char* many);
+/// Three significant digits.
+[[nodiscard]] std::string short_number(double value);
+
+/// What is said about facets: "1 segment is" or "12 segments are", the rest of the sentence, what to do.
+struct AboutFacets {
+  const char* one;
+  const char* many;
+  std::string rest;
+  const char* advice;
+};
+struct Measured {
+  const char* name = nullptr;  ///< none: the number of facets
+  double value = 0.0;
+};
 
 struct InspectionContext {
   const InspectionInput& input;
@@ -25,12 +43,18 @@ struct InspectionContext {
     out.push_back(std::move(f));
     return out.back();
   }
+  /// Nothing when there are no facets to speak of.
+  void add_facets(Severity severity, const char* code, int side, std::vector<Index> facets, const AboutFacets& about,
+                  const Measured& measured = {}) const {
+    if (facets.empty()) return;
+    Finding& f = add(severity, code, side);
+    f.measure_name = measured.name != nullptr ? measured.name : "facets";
+    f.measure = measured.name != nullptr ? measured.value : static_cast<double>(facets.size());
+    f.what = counted(facets.size(), about.one, about.many) + " " + about.rest;
+    f.advice = about.advice;
+    f.facets = std::move(facets);
+  }
 };
-
-/// "12 facets", "1 facet".
-[[nodiscard]] std::string counted(std::size_t n, const char* one, const char* many);
-/// Three significant digits.
-[[nodiscard]] std::string short_number(double value);
 
 void find_topology(const InspectionContext& c);     ///< shared nodes, degenerate, duplicate, junctions, no stiffness
 void find_orientation(const InspectionContext& c);  ///< facing, mixed orientation

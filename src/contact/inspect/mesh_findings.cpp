@@ -49,117 +49,96 @@ void find_topology(const InspectionContext& c) {
   for (int k = 0; k < 2; ++k) {
     const Shape& s = c.shapes[at(k)];
     if (s.is_nodes()) continue;
-    if (!s.degenerate().empty()) {
-      Finding& f = c.add(Severity::error, "contact.degenerate_facets", k);
-      f.facets = s.degenerate();
-      f.measure_name = "facets";
-      f.measure = static_cast<double>(f.facets.size());
-      f.what = counted(f.facets.size(), "segment has", "segments have") + " no area, hence no normal";
-      f.advice = "Give each segment three or four distinct nodes that are not on one line (a triangle repeats its third node).";
-    }
-    if (!s.duplicates().empty()) {
-      Finding& f = c.add(Severity::error, "contact.duplicate_facets", k);
-      f.facets = s.duplicates();
-      f.measure_name = "facets";
-      f.measure = static_cast<double>(f.facets.size());
-      f.what = counted(f.facets.size(), "segment is", "segments are") + " on the same nodes as an earlier one";
-      f.advice = "List each segment once: a second one would double the contact stiffness, or cancel the first one's normal.";
-    }
-    if (!s.at_junctions().empty()) {
-      Finding& f = c.add(Severity::warning, "contact.junctions", k);
-      f.facets = s.at_junctions();
-      f.measure_name = "facets";
-      f.measure = static_cast<double>(f.facets.size());
-      f.what = counted(f.facets.size(), "segment meets", "segments meet") + " others at an edge of more than two";
-      f.advice = "Take one branch of each junction out of the surface (a wall that stands on a plate), or give it a surface of its own.";
-    }
+    c.add_facets(Severity::error, "contact.degenerate_facets", k, s.degenerate(),
+                 {"segment has", "segments have", "no area, hence no normal",
+                  "Give each segment three or four distinct nodes that are not on one line (a triangle repeats its third node)."});
+    c.add_facets(Severity::error, "contact.duplicate_facets", k, s.duplicates(),
+                 {"segment is", "segments are", "on the same nodes as an earlier one",
+                  "List each segment once: a second one would double the contact stiffness, or cancel the first one's normal."});
+    c.add_facets(Severity::warning, "contact.junctions", k, s.at_junctions(),
+                 {"segment meets", "segments meet", "others at an edge of more than two",
+                  "Take one branch of each junction out of the surface (a wall that stands on a plate), or give it a surface of its own."});
     std::vector<Index> soft;
     for (std::size_t i = 0; i < s.side().stiffness.size(); ++i) {
       if (!(s.side().stiffness[i] > 0.0)) soft.push_back(static_cast<Index>(i));
     }
-    if (!soft.empty()) {
-      const bool all = soft.size() == at(s.count());
-      Finding& f = c.add(all ? Severity::error : Severity::warning, "contact.no_stiffness", k);
-      f.measure_name = "share of facets";
-      f.measure = static_cast<double>(soft.size()) / static_cast<double>(s.count());
-      f.what = counted(soft.size(), "segment lies", "segments lie") + " on no shell or brick with stiffness";
-      f.advice = "Nothing pushes back there: use faces of shells or bricks with E > 0, or leave these segments out.";
-      f.facets = std::move(soft);
-    }
+    const double share = static_cast<double>(soft.size()) / static_cast<double>(s.count());
+    const Severity severity = soft.size() == at(s.count()) ? Severity::error : Severity::warning;
+    c.add_facets(severity, "contact.no_stiffness", k, std::move(soft),
+                 {"segment lies", "segments lie", "on no shell or brick with stiffness",
+                  "Nothing pushes back there: use faces of shells or bricks with E > 0, or leave these segments out."},
+                 {"share of facets", share});
   }
 }
+
+namespace {
+
+void find_away(const InspectionContext& c, int k, const std::vector<std::array<PieceVote, 2>>& votes) {
+  const Shape& s = c.shapes[at(k)];
+  const Views& view = c.views.side[at(k)];
+  const double fraction = view.facing.fraction();
+  std::vector<Index> away, partly, alike;
+  for (Index f = 0; f < s.count(); ++f) {
+    if (view.alike[at(f)] != 0) alike.push_back(f);
+    if (view.facing.facet[at(f)] >= 0) continue;
+    const PieceVote& vote = votes[at(s.piece(f))][s.turned(f)];
+    (vote.away > vote.facing ? away : partly).push_back(f);
+  }
+  if (!away.empty()) {
+    const bool all = view.facing.area_facing == 0.0;
+    Finding& f = c.add(Severity::error, "contact.normals_away", k);
+    f.measure_name = "facing fraction";
+    f.measure = fraction;
+    f.what = all ? "the normals point away from the other side on all of the " + counted(away.size(), "segment", "segments") + " near it"
+                 : counted(away.size(), "segment", "segments") + " near the other side have their normals pointing away from it (" +
+                       percent(fraction) + " of the surface near it faces)";
+    f.what += ", up to " + short_number(view.away_distance) + " away";
+    f.advice =
+        "Contact would not be felt there: reverse these segments (or run with --orient auto); if instead the surfaces overlap by "
+        "that much at the start, separate them.";
+    f.facets = std::move(away);
+  }
+  c.add_facets(Severity::error, "contact.normals_alike", k, std::move(alike),
+               {"segment touches", "segments touch", "the other side with a normal that points the same way",
+                "One of the two surfaces is the wrong way round: reverse the one whose normals point into its own body."});
+  double partly_area = 0.0;
+  for (const Index f : partly) partly_area += s.area(f);
+  if (partly_area > 0.1 * (view.facing.area_facing + view.facing.area_away)) {
+    c.add_facets(
+        Severity::warning, "contact.partly_away", k, std::move(partly),
+        {"segment", "segments",
+         "of a surface that faces the other side on the whole see it behind them, up to " + short_number(view.away_distance) + " deep",
+         "Take out segments that cannot touch, or remove the overlap there."},
+        {"facing fraction", fraction});
+  }
+}
+
+}  // namespace
 
 void find_orientation(const InspectionContext& c) {
   for (int k = 0; k < 2; ++k) {
     const Shape& s = c.shapes[at(k)];
     if (s.is_nodes()) continue;
-    const Views& view = c.views.side[at(k)];
-    const auto votes = piece_votes(s, view.facing);
-    std::vector<Index> away, partly, alike;
-    for (Index f = 0; f < s.count(); ++f) {
-      if (view.alike[at(f)] != 0) alike.push_back(f);
-      if (view.facing.facet[at(f)] >= 0) continue;
-      const PieceVote& vote = votes[at(s.piece(f))][s.turned(f)];
-      (vote.away > vote.facing ? away : partly).push_back(f);
-    }
-    if (!away.empty()) {
-      const bool all = view.facing.area_facing == 0.0;
-      Finding& f = c.add(Severity::error, "contact.normals_away", k);
-      f.measure_name = "facing fraction";
-      f.measure = view.facing.fraction();
-      f.what = all ? "the normals point away from the other side on all of the " + counted(away.size(), "segment", "segments") + " near it"
-                   : counted(away.size(), "segment", "segments") + " near the other side have their normals pointing away from it (" +
-                         percent(view.facing.fraction()) + " of the surface near it faces)";
-      f.what += ", up to " + short_number(view.away_distance) + " away";
-      f.advice =
-          "Contact would not be felt there: reverse these segments (or run with --orient auto); if instead the surfaces overlap by "
-          "that much at the start, separate them.";
-      f.facets = std::move(away);
-    }
-    if (!alike.empty()) {
-      Finding& f = c.add(Severity::error, "contact.normals_alike", k);
-      f.measure_name = "facets";
-      f.measure = static_cast<double>(alike.size());
-      f.what = counted(alike.size(), "segment touches", "segments touch") + " the other side with a normal that points the same way";
-      f.advice = "One of the two surfaces is the wrong way round: reverse the one whose normals point into its own body.";
-      f.facets = std::move(alike);
-    }
-    double partly_area = 0.0;
-    for (const Index f : partly) partly_area += s.area(f);
-    if (partly_area > 0.1 * (view.facing.area_facing + view.facing.area_away)) {
-      Finding& f = c.add(Severity::warning, "contact.partly_away", k);
-      f.measure_name = "facing fraction";
-      f.measure = view.facing.fraction();
-      f.what = counted(partly.size(), "segment", "segments") +
-               " of a surface that faces the other side on the whole see it behind them, up to " + short_number(view.away_distance) +
-               " deep";
-      f.advice = "Take out segments that cannot touch, or remove the overlap there.";
-      f.facets = std::move(partly);
-    }
+    const auto votes = piece_votes(s, c.views.side[at(k)].facing);
+    find_away(c, k, votes);
     std::vector<Index> one_sided;
     for (Index f = 0; f < s.count(); ++f) {
       if (s.one_sided(s.piece(f))) one_sided.push_back(f);
     }
-    if (!one_sided.empty()) {
-      Finding& f = c.add(Severity::warning, "contact.one_sided", k);
-      f.measure_name = "facets";
-      f.measure = static_cast<double>(one_sided.size());
-      f.what = counted(one_sided.size(), "segment belongs", "segments belong") + " to a surface that has only one side (as a Moebius band)";
-      f.advice = "No choice of normals makes it face alike everywhere: cut it, and use the part that is touched.";
-      f.facets = std::move(one_sided);
-      continue;
-    }
+    const bool cut_first = !one_sided.empty();
+    c.add_facets(Severity::warning, "contact.one_sided", k, std::move(one_sided),
+                 {"segment belongs", "segments belong", "to a surface that has only one side (as a Moebius band)",
+                  "No choice of normals makes it face alike everywhere: cut it, and use the part that is touched."});
+    if (cut_first) continue;
+    const auto unlike = std::count_if(s.shared_edges().begin(), s.shared_edges().end(), [](const Shape::Shared& e) { return !e.alike; });
     std::vector<Index> flip = facets_to_flip(s, votes);
-    if (!flip.empty()) {
-      std::size_t unlike = 0;
-      for (const Shape::Shared& e : s.shared_edges()) unlike += e.alike ? 0 : 1;
-      Finding& f = c.add(Severity::warning, "contact.mixed_orientation", k);
-      f.measure_name = "edges between unlike normals";
-      f.measure = static_cast<double>(unlike);
-      f.what = "the normals are mixed: " + counted(flip.size(), "segment is", "segments are") + " the other way round than those beside";
-      f.advice = "Reverse these segments, or run with --orient auto.";
-      f.facets = std::move(flip);
-    }
+    if (flip.empty()) continue;
+    Finding& f = c.add(Severity::warning, "contact.mixed_orientation", k);
+    f.measure_name = "edges between unlike normals";
+    f.measure = static_cast<double>(unlike);
+    f.what = "the normals are mixed: " + counted(flip.size(), "segment is", "segments are") + " the other way round than those beside";
+    f.advice = "Reverse these segments, or run with --orient auto.";
+    f.facets = std::move(flip);
   }
 }
 
@@ -198,33 +177,21 @@ void find_shape(const InspectionContext& c) {
       folded.insert(folded.end(), e.facet.begin(), e.facet.end());
     }
     sort_unique(folded);
-    if (!thin.empty()) {
-      Finding& f = c.add(Severity::warning, "contact.aspect_ratio", k);
-      f.measure_name = "largest aspect ratio";
-      f.measure = worst_aspect;
-      f.what = counted(thin.size(), "segment is", "segments are") + " more than " + short_number(c.limits.aspect_ratio) +
-               " times as long as wide, at worst " + short_number(worst_aspect);
-      f.advice = "Regular meshes of good aspect ratio are asked for: refine the long direction or coarsen the short one.";
-      f.facets = std::move(thin);
-    }
-    if (!warped.empty()) {
-      Finding& f = c.add(Severity::warning, "contact.warp", k);
-      f.measure_name = "largest warp in degrees";
-      f.measure = worst_warp;
-      f.what = counted(warped.size(), "segment is", "segments are") + " warped by more than " + short_number(c.limits.warp_degrees) +
-               " degrees, at worst " + short_number(worst_warp);
-      f.advice = "Split them into triangles or refine the mesh there: a warped segment has no single normal.";
-      f.facets = std::move(warped);
-    }
-    if (!folded.empty()) {
-      Finding& f = c.add(Severity::note, "contact.concave", k);
-      f.measure_name = "largest inward fold in degrees";
-      f.measure = worst_fold;
-      f.what = counted(folded.size(), "segment lies", "segments lie") + " at an inward fold of up to " + short_number(worst_fold) +
-               " degrees: the surface is not simply convex";
-      f.advice = "abut's standard profile searches concave surfaces exactly; in the reference profile, split the surface at the fold.";
-      f.facets = std::move(folded);
-    }
+    c.add_facets(Severity::warning, "contact.aspect_ratio", k, std::move(thin),
+                 {"segment is", "segments are",
+                  "more than " + short_number(c.limits.aspect_ratio) + " times as long as wide, at worst " + short_number(worst_aspect),
+                  "Regular meshes of good aspect ratio are asked for: refine the long direction or coarsen the short one."},
+                 {"largest aspect ratio", worst_aspect});
+    c.add_facets(Severity::warning, "contact.warp", k, std::move(warped),
+                 {"segment is", "segments are",
+                  "warped by more than " + short_number(c.limits.warp_degrees) + " degrees, at worst " + short_number(worst_warp),
+                  "Split them into triangles or refine the mesh there: a warped segment has no single normal."},
+                 {"largest warp in degrees", worst_warp});
+    c.add_facets(Severity::note, "contact.concave", k, std::move(folded),
+                 {"segment lies", "segments lie",
+                  "at an inward fold of up to " + short_number(worst_fold) + " degrees: the surface is not simply convex",
+                  "abut's standard profile searches concave surfaces exactly; in the reference profile, split the surface at the fold."},
+                 {"largest inward fold in degrees", worst_fold});
   }
 }
 

@@ -103,6 +103,47 @@ TEST(ShellLaw2, ElasticRangeIsLaw1ForEveryNumberOfPoints) {
   }
 }
 
+// Stress through the thickness of an elastic shell that is stretched and bent: C (e + z kappa) at z = +-t/2 and at the points, in
+// global axes (the shell is turned by 90 degrees about z), whether the law keeps points (LAW2) or not (LAW1).
+TEST(ShellLayers, StressIsLinearThroughTheThickness) {
+  const double small = 1e-7;  // the triangle has second-order terms (kernel.hpp): some small^2
+  const double t = 0.8, exx = 3 * small, eyy = -small, gxy = 2 * small, kxx = 5 * small, kyy = -2 * small;
+  const auto exact = [&](double z) {
+    const double c = e / (1.0 - nu * nu), x = exx + z * kxx, y = eyy + z * kyy;
+    return std::array{c * (x + nu * y), c * (y + nu * x), e / (2.0 * (1.0 + nu)) * gxy};
+  };
+  for (const bool quad : {true, false}) {
+    for (const int points : {0, 4}) {
+      Strained shell(quad, t);
+      if (points > 0) {
+        shell.s.johnson_cook().a = 1e9;
+        shell.s.property().points = points;
+      }
+      shell.start();
+      shell.step(1.0, exx, eyy, gxy, kxx, kyy);
+      const std::vector<Vec3> flat = shell.r->x;
+      for (Vec3& x : shell.r->x) x = {-x.y, x.x, x.z};  // `output` takes the axes from where the nodes are now
+      const auto expect = [&](ShellLayer layer, const std::array<double, 3>& own) {
+        const auto s = shell.r->group->layer_stress(0, layer);
+        // The transverse shear of the turning nodes is constant through the thickness; bending has none.
+        std::array<double, 6> turned = layer.kind == ShellLayer::Kind::bending ? std::array<double, 6>{} : shell.out().stress;
+        turned[0] = own[1];
+        turned[1] = own[0];
+        turned[3] = -own[2];
+        for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(s[i], turned[i], 10.0 * e * small * small) << quad << points << i;
+      };
+      using Kind = ShellLayer::Kind;
+      expect({Kind::upper}, exact(0.5 * t));
+      expect({Kind::lower}, exact(-0.5 * t));
+      const auto top = exact(0.5 * t), bottom = exact(-0.5 * t);
+      expect({Kind::bending}, {0.5 * (top[0] - bottom[0]), 0.5 * (top[1] - bottom[1]), 0.5 * (top[2] - bottom[2])});
+      for (int k = 1; k <= points; ++k) expect({Kind::point, k}, exact(t * (-0.5 + (k - 1.0) / (points - 1.0))));
+      EXPECT_EQ(shell.r->group->layer_stress(0, {Kind::point, points + 1}), (std::array<double, 6>{}));
+      shell.r->x = flat;
+    }
+  }
+}
+
 // N = 1: membrane only.
 TEST(ShellLaw1, OnePointHasNoBendingAndNoShear) {
   Strained m;

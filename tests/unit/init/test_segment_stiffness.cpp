@@ -1,7 +1,7 @@
 // A surface's own stiffness per segment, from the model (T16, T17, T18; numerics.md 7.2.3).
 #include <gtest/gtest.h>
 
-#include "init/contact_setup.hpp"
+#include "init/contact_stiffness.hpp"
 
 namespace abut::init {
 namespace {

@@ -66,7 +66,7 @@ TEST(Outputs, ElementsWallsBodiesAndAccelerometers) {
       base_starter, "/TH/PART/2", 0,
       "/TH/SHELL/11\nshells\nSTRESS    THIC\n" + integers({"3", "0"}) + "plate\n/TH/BRICK/12\nbricks\nSTRESS\n" + integers({"2"}) +
           "\n/TH/RWALL/13\nwall\nFN\n" + integers({"1"}) + "\n/TH/RBODY/14\nbody\nF         V\n" + integers({"1"}) +
-          "\n/ACCEL/5\nsensor\n" + integers({"13", "1"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n/TH/PART/2"));
+          "\n/ACCEL/5\nsensor\n" + integers({"13", "1", ""}) + reals({"1.65"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n/TH/PART/2"));
   ASSERT_EQ(b.messages(), std::vector<std::string>{});
   EXPECT_EQ(find(b.model, ThKind::shell, 3)->variables,
             (std::vector<std::string>{"F1", "F2", "F12", "Q1", "Q2", "M1", "M2", "M12", "THIC"}));
@@ -75,8 +75,10 @@ TEST(Outputs, ElementsWallsBodiesAndAccelerometers) {
   EXPECT_EQ(find(b.model, ThKind::rbody, 1)->variables.size(), 9u);
   const ThRequest* acc = find(b.model, ThKind::accelerometer, 5);
   ASSERT_NE(acc, nullptr);
-  EXPECT_EQ(b.model.node_id[static_cast<std::size_t>(acc->index)], 13);
-  EXPECT_EQ(acc->skew, 0);
+  const Accelerometer& instrument = b.model.accelerometers.at(static_cast<std::size_t>(acc->index));
+  EXPECT_EQ(b.model.node_id[static_cast<std::size_t>(instrument.node)], 13);
+  EXPECT_EQ(instrument.skew, 0);
+  EXPECT_EQ(instrument.cut_off, 1.65);
 }
 
 TEST(Outputs, SectionTakesGroupsFrameAndInterfaces) {

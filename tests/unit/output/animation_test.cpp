@@ -161,9 +161,22 @@ TEST_F(AnimationTest, SelectionsOfTheDeckAddFields) {
   expect_cell(grid, "hourglass_energy", 3, expected.hourglass_energy);
 }
 
+// Layers are fields of their own, each once; a group that has no layers gives its mean stress.
+TEST_F(AnimationTest, LayersOfShellsAreFields) {
+  scene_.model.controls.animation_fields = {"SHELL/TENS/STRESS/UPPER", "SHELL/TENS/STRESS/ALL", "TENS/STRESS/BEND", "SHELL/TENS/STRESS/3"};
+  EXPECT_TRUE(select_animation_fields(scene_.model.controls.animation_fields).left_out.empty());
+  EXPECT_EQ(select_animation_fields(scene_.model.controls.animation_fields).cells.size(), 3u + 4u);
+  const auto grid = written();
+  const auto expected = FakeGroup::expected(1, 1.0);
+  for (const char* name : {"stress_upper", "stress_lower", "stress_bending", "stress_point_3"}) {
+    for (int k = 0; k < 6; ++k) expect_cell(grid, name, 3, expected.stress[static_cast<std::size_t>(k)], k);
+    EXPECT_STREQ(grid->GetCellData()->GetArray(name)->GetComponentName(5), "XZ");
+  }
+}
+
 TEST_F(AnimationTest, SelectionsThatAreNotComputedAreNamed) {
-  EXPECT_EQ(select_animation_fields({"VECT/FOPT", "ELEM/VONM", "VECT/FOPT", "SHELL/TENS/STRESS/UPPER"}).left_out,
-            (std::vector<std::string>{"VECT/FOPT", "SHELL/TENS/STRESS/UPPER"}));
+  EXPECT_EQ(select_animation_fields({"VECT/FOPT", "ELEM/VONM", "VECT/FOPT", "SHELL/TENS/STRAIN/UPPER", "SHELL/TENS/STRESS/0"}).left_out,
+            (std::vector<std::string>{"VECT/FOPT", "SHELL/TENS/STRAIN/UPPER", "SHELL/TENS/STRESS/0"}));
 }
 
 TEST_F(AnimationTest, ADeletedElementIsLeftOutFromThenOn) {

@@ -80,8 +80,8 @@ class FakeGroup final : public elements::Group {
   elements::Family family() const override { return elements::Family::inert; }
   std::span<const Index> nodes(Index) const override { return {}; }
   model::ElementKind kind() const override { return kind_; }
-  void initial_masses(std::span<double>) const override {}
-  elements::GroupResult step(const elements::StepInput&, std::span<double>, parallel::ThreadPool&) override { return {}; }
+  void add_masses(std::span<double>, std::span<double>) const override {}
+  elements::GroupResult step(const elements::StepInput&, const elements::StepOutput&, parallel::ThreadPool&) override { return {}; }
   void set_rigid(std::span<const std::uint8_t>) override {}
   elements::ElementOutput output(Index element) const override {
     elements::ElementOutput o = expected(elements_[static_cast<std::size_t>(element)], scale);
@@ -114,6 +114,7 @@ struct Scene {
   std::vector<cycle::WallResult> walls;
   std::vector<cycle::BodyResult> bodies;
   std::vector<cycle::SectionResult> sections;
+  std::vector<cycle::AccelerometerResult> accelerometers;
 
   Scene() {
     model.name = "scene";
@@ -178,6 +179,7 @@ struct Scene {
     walls.resize(1);
     bodies.resize(1);
     sections.resize(1);
+    accelerometers.resize(1);
   }
 
   template <std::size_t N>
@@ -203,6 +205,7 @@ struct Scene {
     s.walls = walls;
     s.bodies = bodies;
     s.sections = sections;
+    s.accelerometers = accelerometers;
     return s;
   }
 };

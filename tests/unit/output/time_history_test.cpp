@@ -193,6 +193,8 @@ TEST_F(TimeHistoryTest, WallsBodiesAndSections) {
   scene_.model.th_requests.push_back(request(model::ThKind::rwall, 5, 0, {"FNX", "FTZ"}));
   scene_.model.th_requests.push_back(request(model::ThKind::rbody, 6, 0, {"FX", "MZ", "RY", "DX", "VRZ"}));
   scene_.model.th_requests.push_back(request(model::ThKind::section, 8, 0, {"FNZ", "FTX", "M2"}));
+  scene_.accelerometers[0] = {{1, 2, 3}, {4, 5, 6}};
+  scene_.model.th_requests.push_back(request(model::ThKind::accelerometer, 9, 0, {"AX", "AZ", "WY"}));
   const auto r = row();
   EXPECT_EQ(r.at("RWALL/5/FNX"), 1);
   EXPECT_EQ(r.at("RWALL/5/FTZ"), 6);
@@ -210,6 +212,9 @@ TEST_F(TimeHistoryTest, WallsBodiesAndSections) {
   EXPECT_EQ(r.at("SECTIO/8/M2"), 8);
   EXPECT_EQ(r.at("SECTIO/8/IFNX"), 10);
   EXPECT_EQ(r.at("SECTIO/8/IM3"), 18);
+  EXPECT_EQ(r.at("ACCEL/9/AX"), 1);
+  EXPECT_EQ(r.at("ACCEL/9/AZ"), 3);
+  EXPECT_EQ(r.at("ACCEL/9/WY"), 5);
 }
 
 TEST_F(TimeHistoryTest, ElementVariablesComeFromTheirGroup) {
@@ -246,9 +251,8 @@ TEST_F(TimeHistoryTest, VariablesThatAreNotComputedAreNamedOnceAndLeftOut) {
   scene_.model.th_requests.push_back(request(model::ThKind::part, 11, 0, {"IE", "HEAT"}));
   scene_.model.th_requests.push_back(request(model::ThKind::part, 22, 1, {"IE", "HEAT"}));
   scene_.model.th_requests.push_back(request(model::ThKind::node, 101, 0, {"DX", "TEMP", "REACX"}));
-  scene_.model.th_requests.push_back(request(model::ThKind::accelerometer, 1, no_index, {"AX"}));
   const HistoryColumns columns = make_history_columns(scene_.model, ElementLookup(scene_.model, scene_.groups));
-  EXPECT_EQ(columns.left_out, (std::vector<std::string>{"PART HEAT", "NODE TEMP", "NODE REACX", "ACCEL AX"}));
+  EXPECT_EQ(columns.left_out, (std::vector<std::string>{"PART HEAT", "NODE TEMP", "NODE REACX"}));
   const auto r = row();
   EXPECT_FALSE(r.contains("PART/11/HEAT"));
   EXPECT_TRUE(r.contains("PART/22/IE"));

@@ -1,0 +1,186 @@
+// What a pass does with a measured node: stiffness for the step, first and last force, damping, friction.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/enforce/coefficient.hpp"
+#include "contact/enforce/pass.hpp"
+#include "contact/enforce/switching.hpp"
+
+namespace abut::contact {
+namespace {
+
+constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
+
+}  // namespace
+
+Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
+  Kinematics k;
+  const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
+  const Index node = held.nodes()[at(i)];
+  Vec3 v = host.v[at(node)];
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (touch.weight[c] != 0.0) v -= touch.weight[c] * host.v[at(surface.nodes()[at(corner[c])])];
+  }
+  k.rate = dot(v, touch.normal);
+  k.tangential_velocity = v - k.rate * touch.normal;
+  if (!host.mass.empty()) {
+    const auto inverse = [&host](Index n) { return host.mass[at(n)] > 0.0 ? 1.0 / host.mass[at(n)] : 0.0; };
+    k.inverse_mass = inverse(node);
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (touch.weight[c] != 0.0) k.inverse_mass += touch.weight[c] * touch.weight[c] * inverse(surface.nodes()[at(corner[c])]);
+    }
+  }
+  return k;
+}
+
+void Pass::look_ahead(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i) const {
+  // No facet known within reach: only a node that flies further than the lists see can touch in the coming step.
+  const Index node = held.nodes()[at(i)];
+  const Vec3 v = host.v[at(node)] - (host.dt > 0.0 ? mean_step_ / host.dt : Vec3{});
+  const Vec3 flight = (1.5 * step_growth * host.dt) * v;
+  if (norm(flight) + 2.0 * surface_step_ <= std::max(options_.gap, smallest_depth_)) return;
+  Bounds path;
+  path.include(held.x()[at(i)]);
+  path.include(held.x()[at(i)] + flight);
+  double largest = 0.0;
+  candidates_.near(path, options_.gap + 2.0 * surface_step_,
+                   [&](Index f) { largest = std::max(largest, plain_stiffness(held, surface, i, f)); });
+  held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
+  held_loads.loaded[at(i)] |= SideLoads::now;
+}
+
+void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
+                       GroupSums& sums) {
+  PassTotals& totals = sums.totals;
+  const NodeState& before = state_[at(i)];
+  NodeState& after = next_[at(i)];
+  const Rules& rules = options_.rules;
+  if (!touch.known) {
+    if (!closest() || touch.far || !rules.limits_step || host.dt <= 0.0) return;
+    look_ahead(host, held, surface, held_loads, i);
+    return;
+  }
+  const double penetration = touch.penetration;
+  const Kinematics motion = kinematics(host, held, surface, i, touch);
+  if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
+  // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
+  const double grown = growth(before);
+  const double closing = -motion.rate + (grown > 0.0 && host.dt > 0.0 ? grown / host.dt : 0.0);
+  Reaction reaction;
+  reaction.facet = touch.facet;
+  reaction.weight = touch.weight;
+
+  // Stiffness for the coming step, also where contact may begin in it.
+  if (rules.limits_step) {
+    const double ahead = 1.5 * step_growth * host.dt * std::max(closing, 0.0);
+    const bool may_touch = host.dt > 0.0 ? penetration + ahead > 0.0 : penetration > -0.25 * size_;
+    if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
+      const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
+      double tangent = touch.pair.stiffness * law_.tangent(reached) + touch.pair.extra_tangent;
+      if (options_.rubs()) {
+        const double pressure = touch.pair.magnitude / surface.facet_area(touch.facet);
+        const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
+        tangent *= std::sqrt(1.0 + mu * mu);
+      }
+      if (options_.damping > 0.0) {
+        // With viscous forces from the step before, h^2 K/4 + h C/2 <= 1: in the terms of one spring (sqrt(1 + z^2) + z)^2, or 2 C/h.
+        const double z = options_.damping;
+        const double root = std::sqrt(1.0 + z * z) + z;
+        const double c = motion.inverse_mass > 0.0 ? 2.0 * z * std::sqrt(tangent / motion.inverse_mass) : 0.0;
+        tangent = std::max(tangent * root * root, host.dt > 0.0 ? tangent + 2.0 * c / host.dt : 0.0);
+      }
+      double spread = 0.0;
+      for (const double w : touch.weight) spread += std::abs(w);
+      tangent *= 0.5 * (1.0 + spread);
+      held_loads.own_stiffness[at(i)] += tangent;
+      held_loads.loaded[at(i)] |= SideLoads::now;
+      reaction.stiffness = tangent;
+    }
+    if (law_.stiffens() && closing > 0.0) {
+      const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);
+      if (0.5 * room / closing < totals.kinematic_step) {
+        totals.kinematic_step = 0.5 * room / closing;
+        totals.kinematic_node = held.nodes()[at(i)];
+      }
+    }
+  }
+
+  if (!touch.contact) {  // history of a contact that ends: closed by the caller
+    if (reaction.stiffness > 0.0) sums.reactions.push_back(reaction);
+    return;
+  }
+  totals.in_contact += 1;
+  totals.crossed += touch.fresh_hit ? 1 : 0;
+  totals.largest_penetration = std::max(totals.largest_penetration, penetration);
+  sums.in_contact.push_back(held.nodes()[at(i)]);
+
+  const double share = 1.0 / static_cast<double>(touch.equals + 1);
+  const bool fresh = before.held == 0;
+  double fraction = 1.0;  // of the last step in contact
+  double factor = 1.0;
+  const double moved_in = closing * host.dt;
+  // With two passes the facing surface's own springs act on this pair too, as strongly as this one where the meshes face.
+  const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * motion.inverse_mass;
+  if (fresh && moved_in > penetration) fraction = penetration / moved_in;
+  if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
+    const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
+    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others};
+    const Switched switched = switched_force(s, fresh);
+    factor = switched.force / touch.pair.magnitude;
+    totals.potential += switched.stored;
+  } else {
+    totals.potential += touch.pair.potential;
+  }
+  double normal_force = factor * touch.pair.magnitude;
+  Vec3 on_node = factor * touch.pair.on_node;
+  for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
+  totals.started += 0.5 * (before.force + normal_force) * grown;
+  after.force = normal_force;
+  after.damping = 0.0;
+  if (options_.damping > 0.0 && motion.inverse_mass > 0.0) {
+    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / motion.inverse_mass);
+    after.damping = std::max(-c * motion.rate, -normal_force);
+    totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
+    on_node += after.damping * touch.normal;
+    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= (share * touch.weight[k] * after.damping) * touch.normal;
+  }
+  held_loads.own_normal[at(i)] = on_node;
+  held_loads.loaded[at(i)] |= SideLoads::now;
+  totals.normal += on_node;
+
+  after.held = touch.widens ? 2 : 1;
+  after.facet = touch.facet;
+  after.normal = touch.normal;
+  after.rate = motion.rate;
+  after.acceleration = (normal_force + after.damping) * inverse_mass;
+  normal_force += after.damping;
+
+  if (options_.rubs() && rub) {
+    const double mu = friction_coefficient(options_.friction_law, options_.friction, normal_force / surface.facet_area(touch.facet),
+                                           norm(motion.tangential_velocity));
+    double limit = mu * normal_force;
+    if (options_.shear_limit < 1e29 && !rules.reference_friction) {
+      const double own_area = held.facet_count() > 0 ? held.tributary_area(i) : surface.facet_area(touch.facet);
+      // Two passes act on the same area: each may carry half of the stress.
+      limit = std::min(limit, (two_passes_ ? 0.5 : 1.0) * options_.shear_limit * own_area);
+    }
+    const Vec3 on_surface = rules.reference_friction
+                                ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
+                                : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
+    slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
+    held_loads.own_tangential[at(i)] = -on_surface;
+    reaction.tangential = share * on_surface;
+    totals.tangential -= on_surface;
+  }
+  sums.reactions.push_back(reaction);
+  for (std::size_t k = touch.first_equal; k < touch.first_equal + touch.equals; ++k) {
+    const Equal& one = sums.equals[k];
+    Reaction further{one.facet, reaction.stiffness, one.weight, {}, reaction.tangential};
+    for (std::size_t c = 0; c < 4; ++c) {
+      further.normal[c] = factor * one.on_facet[c] - (share * one.weight[c] * after.damping) * touch.normal;
+    }
+    sums.reactions.push_back(further);
+  }
+}
+
+}  // namespace abut::contact

@@ -1,0 +1,256 @@
+// What a node of a pass sees: distance, facet, penetration and the pair's force, by the closest point or by the plain rule.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/enforce/pass.hpp"
+#include "contact/project/plain.hpp"
+#include "contact/search/swept.hpp"
+
+namespace abut::contact {
+namespace {
+
+constexpr double never = 1e300;  // offset of a node that is ignored
+constexpr double equal = 1e-8;   // relative difference of distances that are the same
+
+Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
+  Patch patch = side.patch(f);
+  const std::array<Index, 4>& local = side.surface().local()[at(f)];
+  for (std::size_t i = 0; i < 4; ++i) patch.x[i] = x[at(local[i])];
+  return patch;
+}
+
+}  // namespace
+
+bool Pass::far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
+  // Neither the motion of the last step nor that of the coming one may come near a quarter of the way.
+  const double clear = 0.25 * std::min(smallest_depth_, candidates_.nearest_due(i) - candidates_.clock() - options_.gap) - surface_step_;
+  if (clear <= 0.0) return false;
+  const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
+  const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;
+  return std::max(squared_norm(last), squared_norm(coming)) < clear * clear;
+}
+
+Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
+  const Vec3 x = held.x()[at(i)];
+  const Vec3 before = held_loads.x_before[at(i)];
+  if (norm(x - before - mean_step_) + surface_step_ <= smallest_depth_) return no_index;
+  Bounds path;
+  path.include(x);
+  path.include(before + mean_step_);
+  Index hit = no_index;
+  double earliest = 2.0;
+  candidates_.near(path, surface_step_, [&](Index f) {
+    if (!surface.active(f)) return;
+    for (const Index n : surface.surface().facets()[at(f)].node) {
+      if (n == held.nodes()[at(i)]) return;
+    }
+    const Crossing c = crosses(patch_at(surface, surface_loads.x_before, f), before, surface.patch(f), x);
+    if (c.crossed && (c.fraction < earliest || (c.fraction == earliest && f < hit))) {
+      earliest = c.fraction;
+      hit = f;
+    }
+  });
+  return hit;
+}
+
+void Pass::measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
+                           const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums) {
+  const NodeState& before = state_[at(i)];
+  NodeState& after = next_[at(i)];
+  touch = {};
+  if (!held.node_active(i)) return;
+  const Vec3 x = held.x()[at(i)];
+  const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
+  if (before.in_front != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
+    if (far(host, held, held_loads, i)) {
+      touch.far = true;
+      after.offset = 0.0;
+      return;
+    }
+  }
+  touch.widens = was_held && before.held == 2;
+  const double strip = touch.widens ? border_strip + border_widening : border_strip;
+  Measure m;
+  if (was_held || !candidates_.of(i).empty())
+    m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal, strip} : HeldBy{});
+  const auto take = [&](const Measure& measure) {
+    touch.facet = measure.facet;
+    touch.known = true;
+    touch.weight = measure.closest.weight;
+    touch.point = measure.closest.point;
+    touch.normal = measure.normal;
+    touch.distance = measure.distance;
+  };
+  bool meets = false;
+  double gap = options_.gap;
+  after.in_front = m.found() && !m.closest.beyond && m.distance >= 0.0 ? 1 : 0;
+  if (m.found()) {
+    take(m);
+    gap = gap_of(m.distance, after);
+    meets = !m.closest.beyond && gap - m.distance > 0.0;
+    if (!m.closest.beyond && m.distance >= 0.0) after.ignored = 0;
+    if (meets && !was_held && m.distance < 0.0 && !options_.rules.unlimited_depth) {
+      const double depth = depth_[at(m.facet)];
+      const double came_from = m.distance - host.dt * kinematics(host, held, surface, i, touch).rate;
+      if (-m.distance > depth || (host.dt > 0.0 && came_from < -depth)) after.ignored = 1;
+      if (after.ignored != 0) meets = false;
+    }
+  } else {
+    after.ignored = 0;
+    after.offset = 0.0;
+  }
+  if (!meets && !was_held && before.ignored == 0 && after.offset == 0.0 && host.dt > 0.0) {
+    const Index hit = swept_facet(held, surface, held_loads, surface_loads, i);
+    if (hit != no_index) {
+      const Measure caught = descend_to_nearest(surface, hit, x);
+      if (!caught.closest.beyond && caught.distance < 0.0) {
+        m = caught;
+        take(m);
+        meets = true;
+        touch.fresh_hit = true;
+        after.ignored = 0;
+      }
+    }
+  }
+  if (!touch.known) return;
+  touch.penetration = gap - m.distance;
+  // A node that was in front, that the swept test caught, or that touches at the start comes through the front.
+  if (!was_held) touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_;
+  touch.pair = force_of(held, surface, m, i, gap, touch.widens);
+  touch.contact = meets && touch.pair.magnitude > 0.0;
+  if (touch.contact) share_among_equals(held, surface, m, i, strip, touch, sums);
+}
+
+PairForce Pass::force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const {
+  return pair_force(surface, m, held.x()[at(i)], law_, gap, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_,
+                    widens ? widening_[at(m.facet)] : 0.0);
+}
+
+void Pass::share_among_equals(const Side& held, const Side& surface, const Measure& m, Index i, double strip, Touch& touch,
+                              GroupSums& sums) {
+  const Vec3 x = held.x()[at(i)];
+  const double distance = std::sqrt(m.closest.squared_distance);
+  const double size = surface.facet_area(m.facet);
+  touch.first_equal = sums.equals.size();
+  PairForce& pair = touch.pair;
+  Vec3 normal = touch.normal;
+  for (const Candidates::Entry& entry : candidates_.of(i)) {
+    const Index f = entry.facet;
+    if (entry.due - candidates_.clock() > (1.0 + equal) * distance || f == m.facet || !surface.active(f)) continue;
+    const ClosestPoint other = closest_point(extended(surface, f, strip), x);
+    if (std::abs(std::sqrt(other.squared_distance) - distance) > equal * distance || other.beyond) continue;
+    if (squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from the facet across
+    const Measure its = signed_measure(surface, f, other, x);
+    if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
+    const PairForce one = force_of(held, surface, its, i, touch.penetration + m.distance, touch.widens);
+    sums.equals.push_back({f, other.weight, one.on_facet});
+    normal += its.normal;
+    pair.on_node += one.on_node;
+    pair.magnitude += one.magnitude;
+    pair.potential += one.potential;
+    pair.stiffness = std::max(pair.stiffness, one.stiffness);
+    pair.extra_tangent = std::max(pair.extra_tangent, one.extra_tangent);
+  }
+  touch.equals = sums.equals.size() - touch.first_equal;
+  if (touch.equals == 0) return;
+  const double share = 1.0 / static_cast<double>(touch.equals + 1);
+  pair.on_node = share * pair.on_node;
+  pair.magnitude *= share;
+  pair.potential *= share;
+  for (Vec3& force : pair.on_facet) force = share * force;
+  for (std::size_t k = touch.first_equal; k < sums.equals.size(); ++k) {
+    for (Vec3& force : sums.equals[k].on_facet) force = share * force;
+  }
+  touch.normal = normalized(normal);
+}
+
+double Pass::growth(const NodeState& before) const { return before.offset < never ? (1.0 - keep_) * before.offset : 0.0; }
+
+double Pass::gap_of(double distance, NodeState& after) const {
+  const double full = options_.gap - distance;
+  if (!settled_) {
+    if (full > 0.0 && (options_.initial == Initial::offset || options_.start_duration > 0.0)) after.offset = full;
+    if (full > 0.0 && options_.initial == Initial::ignore) after.offset = never;
+  } else if (full <= 0.0) {
+    after.offset = 0.0;
+  } else if (after.offset < never) {
+    after.offset = std::min(keep_ * after.offset, full);  // what the node has moved away is gap again
+  }
+  return options_.gap - after.offset;
+}
+
+double Pass::plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const {
+  const double k1 = surface.facet_stiffness(facet);
+  const double k2 = held.node_stiffness(i);
+  if (half_of_facet_) return 0.5 * options_.stiffness_scale * k1;
+  return k1 + k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2) : 0.0;
+}
+
+void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& touch) {
+  touch = {};
+  const Tracked& t = tracked_[at(i)];
+  if (t.facet == no_index || !surface.active(t.facet) || !held.node_active(i)) return;
+  const Vec3 x = held.x()[at(i)];
+  const PlainPoint p = project_plain(surface.patch(t.facet), x, options_.gap, options_.rules.area_ratio_projection);
+  if (!p.inside) return;
+  touch.known = true;
+  touch.facet = t.facet;
+  touch.weight = p.weight;
+  touch.point = p.point;
+  touch.normal = p.normal;
+  touch.distance = p.distance;
+  const double penetration = gap_of(p.distance, next_[at(i)]) - p.distance;
+  touch.penetration = penetration;
+  PairForce& pair = touch.pair;
+  pair.stiffness = plain_stiffness(held, surface, i, t.facet);
+  if (penetration <= 0.0) return;
+  const bool too_deep = !options_.rules.unlimited_depth && state_[at(i)].held == 0 && -p.distance > depth_[at(t.facet)];
+  if (too_deep) return;
+  pair.magnitude = pair.stiffness * law_.force(penetration);
+  pair.potential = pair.stiffness * law_.potential(penetration);
+  pair.on_node = pair.magnitude * p.normal;
+  for (std::size_t k = 0; k < 4; ++k) pair.on_facet[k] = -p.weight[k] * pair.on_node;
+  // A node without stiffness (its elements are gone) still counts as projected, with no force.
+  touch.contact = true;
+}
+
+double Pass::distance_to(const Side& held, const Side& surface, Index i) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!held.node_active(i)) return none;
+  const Vec3 x = held.x()[at(i)];
+  if (!closest()) {
+    const Index facet = tracked_[at(i)].facet;
+    if (facet == no_index || !surface.active(facet)) return none;
+    const PlainPoint p = project_plain(surface.patch(facet), x, options_.gap, options_.rules.area_ratio_projection);
+    return p.inside ? p.distance : none;
+  }
+  const NodeState& node = now(i);
+  if (node.held != 0 && node.facet != no_index && surface.active(node.facet)) return descend_to_nearest(surface, node.facet, x).distance;
+  if (!candidates_.made()) return none;
+  ClosestPoint nearest;
+  Index facet = no_index;
+  for (const Candidates::Entry& entry : candidates_.of(i)) {
+    if (!surface.active(entry.facet)) continue;
+    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
+    if (facet != no_index && !(other.squared_distance < nearest.squared_distance)) continue;
+    nearest = other;
+    facet = entry.facet;
+  }
+  return facet == no_index || nearest.beyond ? none : signed_measure(surface, facet, nearest, x).distance;
+}
+
+void Pass::add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const {
+  for (Index i = 0; i < held.node_count(); ++i) {
+    const NodeState& node = now(i);
+    NodalContact c;
+    c.opening = distance_to(held, surface, i) - options_.gap;
+    if (node.held != 0) {
+      c.state = slips_[at(i)] != 0 ? NodalContact::State::slip : NodalContact::State::stick;
+      c.penetration = std::max(0.0, (node.offset < never ? -node.offset : 0.0) - c.opening);
+    }
+    merge(nodes[at(held.nodes()[at(i)])], c);
+  }
+}
+
+}  // namespace abut::contact

@@ -1,0 +1,147 @@
+#include "init/contact_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::init {
+
+namespace {
+
+using model::ElementKind;
+using model::ElementRef;
+
+double young_of(const model::Material& m) {
+  return std::visit([](const auto& law) { return law.young; }, m.law);
+}
+double poisson_of(const model::Material& m) {
+  return std::visit([](const auto& law) { return law.poisson; }, m.law);
+}
+
+/// One-point volume of a brick (numerics.md 4.1) or the volume of a tetrahedron.
+double solid_volume(const model::Model& model, const ElementRef& e, std::span<const Vec3> x) {
+  if (e.kind == ElementKind::tetra) {
+    const auto& n = model.tetras.nodes[static_cast<std::size_t>(e.index)];
+    const auto at = [&](int k) { return x[static_cast<std::size_t>(n[static_cast<std::size_t>(k)])]; };
+    return std::abs(dot(at(1) - at(0), cross(at(2) - at(0), at(3) - at(0)))) / 6.0;
+  }
+  const auto& n = model.bricks.nodes[static_cast<std::size_t>(e.index)];
+  const auto at = [&](int k) { return x[static_cast<std::size_t>(n[static_cast<std::size_t>(k)])]; };
+  const Vec3 d17 = at(6) - at(0);
+  const Vec3 d28 = at(7) - at(1);
+  const Vec3 d35 = at(4) - at(2);
+  const Vec3 d46 = at(5) - at(3);
+  return std::abs(dot(d17 - d28 - d35 + d46, cross(d17 + d28 - d35 - d46, d17 + d28 + d35 + d46))) / 64.0;
+}
+
+bool is_shell(const ElementRef& e) { return e.kind == ElementKind::shell4 || e.kind == ElementKind::shell3; }
+
+}  // namespace
+
+double property_thickness(const model::Property& p) {
+  if (const auto* s = std::get_if<model::ShellProperty>(&p.data)) return s->thickness;
+  if (const auto* v = std::get_if<model::VoidProperty>(&p.data)) return v->thickness;
+  return 0.0;
+}
+
+Index part_of(const model::Model& model, const ElementRef& e) {
+  const auto i = static_cast<std::size_t>(e.index);
+  switch (e.kind) {
+    case ElementKind::shell4:
+      return model.shells.part[i];
+    case ElementKind::shell3:
+      return model.sh3ns.part[i];
+    case ElementKind::brick:
+      return model.bricks.part[i];
+    case ElementKind::tetra:
+      return model.tetras.part[i];
+    case ElementKind::none:
+      break;
+  }
+  return no_index;
+}
+
+double segment_stiffness(const model::Model& model, const model::Segment& segment, std::span<const Vec3> x) {
+  const ElementRef& e = segment.element;
+  const Index part = part_of(model, e);
+  if (part == no_index) return 0.0;
+  const model::Part& p = model.parts[static_cast<std::size_t>(part)];
+  if (p.material == no_index || p.property == no_index) return 0.0;
+  const model::Material& material = model.materials[static_cast<std::size_t>(p.material)];
+  const double young = young_of(material);
+  if (e.kind == ElementKind::shell4 || e.kind == ElementKind::shell3) {
+    return young * property_thickness(model.properties[static_cast<std::size_t>(p.property)]);
+  }
+  const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(segment.nodes[k])]; };
+  const double area = 0.5 * norm(cross(at(2) - at(0), at(3) - at(1)));
+  const double bulk = young / (3.0 * (1.0 - 2.0 * poisson_of(material)));
+  return bulk * area * area / solid_volume(model, e, x);
+}
+
+std::vector<double> secondary_stiffness(const model::Model& model, std::span<const Index> nodes, std::span<const Vec3> x) {
+  const auto n = static_cast<std::size_t>(model.node_count());
+  std::vector<double> et(n, 0.0), volume(n, 0.0), bulk_volume(n, 0.0);
+  std::vector<int> shells(n, 0);
+  const auto material_of = [&](const ElementRef& e) -> const model::Material* {
+    const Index m = model.parts[static_cast<std::size_t>(part_of(model, e))].material;
+    return m == no_index ? nullptr : &model.materials[static_cast<std::size_t>(m)];
+  };
+  const auto add_shells = [&](const auto& elements, ElementKind kind) {
+    for (Index e = 0; e < elements.size(); ++e) {
+      const ElementRef ref{kind, e};
+      const model::Material* material = material_of(ref);
+      const Index property = model.parts[static_cast<std::size_t>(part_of(model, ref))].property;
+      if (material == nullptr || property == no_index) continue;
+      const double own = young_of(*material) * property_thickness(model.properties[static_cast<std::size_t>(property)]);
+      for (const Index node : elements.nodes[static_cast<std::size_t>(e)]) {
+        et[static_cast<std::size_t>(node)] += own;
+        ++shells[static_cast<std::size_t>(node)];
+      }
+    }
+  };
+  const auto add_solids = [&](const auto& elements, ElementKind kind) {
+    for (Index e = 0; e < elements.size(); ++e) {
+      const ElementRef ref{kind, e};
+      const model::Material* material = material_of(ref);
+      if (material == nullptr) continue;
+      const auto& corners = elements.nodes[static_cast<std::size_t>(e)];
+      const double share = solid_volume(model, ref, x) / static_cast<double>(corners.size());
+      const double bulk = young_of(*material) / (3.0 * (1.0 - 2.0 * poisson_of(*material)));
+      for (const Index node : corners) {
+        volume[static_cast<std::size_t>(node)] += share;
+        bulk_volume[static_cast<std::size_t>(node)] += bulk * share;
+      }
+    }
+  };
+  add_shells(model.shells, ElementKind::shell4);
+  add_shells(model.sh3ns, ElementKind::shell3);
+  add_solids(model.bricks, ElementKind::brick);
+  add_solids(model.tetras, ElementKind::tetra);
+  std::vector<double> out;
+  for (const Index node : nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    double k = shells[i] > 0 ? et[i] / shells[i] : 0.0;
+    if (volume[i] > 0.0) k += bulk_volume[i] / volume[i] * std::cbrt(2.0 * volume[i]);
+    out.push_back(k);
+  }
+  return out;
+}
+
+std::vector<double> node_stiffness(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
+                                   std::span<const Vec3> x) {
+  std::vector<double> all(static_cast<std::size_t>(model.node_count()), 0.0);
+  for (const auto& [key, elements] : owners.all()) {
+    const auto shell = std::find_if(elements.begin(), elements.end(), is_shell);
+    if (shell == elements.end() && elements.size() != 1) continue;  // between two solids
+    model::Segment face;
+    face.element = shell != elements.end() ? *shell : elements.front();
+    face.nodes = face_of(model, face.element, key);
+    const bool triangle = key[3] == no_index;
+    const double share = segment_stiffness(model, face, x) / (triangle ? 3.0 : 4.0);
+    for (std::size_t k = 0; k < (triangle ? 3U : 4U); ++k) all[static_cast<std::size_t>(key[k])] += share;
+  }
+  std::vector<double> out;
+  for (const Index n : nodes) out.push_back(all[static_cast<std::size_t>(n)]);
+  return out;
+}
+
+}  // namespace abut::init

@@ -1,0 +1,117 @@
+// The watch over the contacts while a run goes on: T32 (a deformation) and T33 (rotation) make normals point the same way; the
+// user is told when and where. The motion is prescribed, so that nothing but the watch is tested.
+#include "output/contact_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "support/scene.hpp"
+
+namespace abut::output {
+namespace {
+
+/// A plate of shells over another one, normals facing, 0.1 apart; the upper one is moved by the test. 20 cycles to a unit of time.
+class Watched : public testing::Test {
+ protected:
+  static constexpr int cells = 4;
+  static constexpr double distance = 0.1, end = 30.0;
+
+  Watched() : scene_("watch") {
+    const Index material = scene_.elastic(1.0, 1.0, 0.0), property = scene_.shell_property(0.01);
+    const Index lower = scene_.part(property, material), upper = scene_.part(property, material);
+    scene_.shells(lower, cells, cells, [](double u, double v) { return Vec3{2.0 * u - 1.0, 2.0 * v - 1.0, 0.0}; });
+    for (int strip = 0; strip < cells; ++strip) {  // four strips side by side that share no nodes
+      const double width = 2.0 / cells, left = strip * width - 1.0;
+      const auto nodes = scene_.shells(
+          upper, 1, cells,
+          [&](double u, double v) {
+            return Vec3{left + width * u, 2.0 * v - 1.0, distance};
+          },
+          true);
+      upper_.insert(upper_.end(), nodes.begin(), nodes.end());
+      middle_.insert(middle_.end(), nodes.size(), left + 0.5 * width);
+    }
+    scene_.contact(scene_.shell_surface(lower), scene_.shell_surface(upper), 0.2, 0.0, 0.2);
+    scene_.end(end);
+    state_.x = scene_.model.node_x;
+    interfaces_.resize(1);
+  }
+
+  /// Moves the upper plate's nodes to place(X, x of the middle of the node's strip, tau), tau from 0 to 1 over the run.
+  const RunFindings& run(const std::function<Vec3(Vec3, double, double)>& place, int cycles = 6000) {
+    ContactWatch watch(log_);
+    cycle::Snapshot now;
+    now.model = &scene_.model;
+    now.state = &state_;
+    now.balance = &balance_;
+    now.interfaces = interfaces_;
+    watch.begin(now);
+    for (int n = 0; n <= cycles; ++n) {
+      const double tau = static_cast<double>(n) / cycles;
+      for (std::size_t k = 0; k < upper_.size(); ++k) {
+        const auto i = static_cast<std::size_t>(upper_[k]);
+        state_.x[i] = place(scene_.model.node_x[i], middle_[k], tau);
+      }
+      state_.times.t = tau * end;
+      state_.times.cycle = n;
+      watch.cycle(now);
+    }
+    return *log_;
+  }
+
+  scenes::Scene scene_;
+  std::vector<Index> upper_;
+  std::vector<double> middle_;
+  state::State state_;
+  state::Balance balance_;
+  std::vector<cycle::InterfaceResult> interfaces_;
+  std::shared_ptr<RunFindings> log_ = std::make_shared<RunFindings>();
+};
+
+Vec3 turned(const Vec3& x, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle), z = x.z - 0.1;
+  return {c * x.x + s * z, x.y, 0.1 - s * x.x + c * z};
+}
+
+void expect_turned_away(const RunFindings& found, Id interface, double from, double to) {
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].diagnostic.code, "contact.turned_away");
+  EXPECT_EQ(found[0].diagnostic.severity, Severity::warning);
+  EXPECT_EQ(found[0].interface_id, interface);
+  EXPECT_GT(found[0].time, from);
+  EXPECT_LT(found[0].time, to);
+  EXPECT_LT(found[0].measure, 0.5);
+}
+
+// T33: the plate turns over as a whole, about a line in its plane; its normals look up from half a turn of 180 degrees on.
+TEST_F(Watched, APlateThatTurnsOverIsToldOnce) {
+  const RunFindings& found = run([](Vec3 x, double, double tau) { return turned(x, std::numbers::pi * tau); });
+  expect_turned_away(found, scene_.model.interfaces[0].id, 0.5 * end, 0.75 * end);
+}
+
+// T32: the strips turn each about its own line, as the slats of a blind do: the surface deforms, nothing moves as a whole.
+TEST_F(Watched, ADeformationThatTurnsTheNormalsIsTold) {
+  const RunFindings& found = run([](Vec3 x, double middle, double tau) {
+    return Vec3{middle, 0, 0} + turned({x.x - middle, x.y, x.z}, std::numbers::pi * tau);
+  });
+  expect_turned_away(found, scene_.model.interfaces[0].id, 0.5 * end, 0.75 * end);
+}
+
+// Twins: a plate that turns in its own plane, or tilts and comes back, goes on facing the other; a plate in contact is felt.
+TEST_F(Watched, MotionsThatLeaveTheNormalsFacingAreNotReported) {
+  EXPECT_TRUE(run([](Vec3 x, double, double tau) {
+                const double a = 2.0 * std::numbers::pi * tau;
+                return Vec3{std::cos(a) * x.x - std::sin(a) * x.y, std::sin(a) * x.x + std::cos(a) * x.y, x.z};
+              }).empty());
+  EXPECT_TRUE(run([](Vec3 x, double, double tau) { return turned(x, 0.05 * std::sin(2.0 * std::numbers::pi * tau)); }).empty());
+  interfaces_[0].in_contact = 1;
+  EXPECT_TRUE(run([](Vec3 x, double, double tau) { return turned(x, std::numbers::pi * tau); }).empty());
+}
+
+}  // namespace
+}  // namespace abut::output
