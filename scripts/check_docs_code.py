@@ -61,9 +61,17 @@ def blocks_of(page, text):
             directive = ""
         elif comment:
             directive = comment.group(1)
+        elif re.match(r" {4}\S", lines[k]) and (k == 0 or not lines[k - 1].strip()) and not inside_list(lines, k):
+            yield Block(page, k + 1, "indented", "", lines[k])
         elif lines[k].strip():
             directive = ""
         k += 1
+
+
+def inside_list(lines, k):
+    """Whether an indented line belongs to a list above it."""
+    above = next((line for line in reversed(lines[:k]) if line.strip() and not line.startswith("  ")), "")
+    return re.match(r"\s*([-*+]|\d+\.) ", above) is not None
 
 
 def pattern_of(line):
@@ -164,6 +172,8 @@ class Runner:
         if language in ("text", ""):
             command = re.search(r"^(\$ |abut (run|check)|cmake |\./)", block.text, flags=re.M)
             return "drawings", f"holds a command: {command.group(0)}" if command else None
+        if language == "indented":
+            return "unknown", "code by indentation: put it between ``` so that it says what it is"
         return "unknown", f"a block in '{language}' can only be an excerpt: <!-- code: excerpt of FILE -->"
 
 
