@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 STAGES = ["core", "simd", "parallel", "deck", "model", "materials", "elements", "contact", "state", "init",
-          "constraints", "cycle", "output"]
+          "constraints", "cycle", "output", "run"]
 # Header pattern -> the only folders (relative to the root) that may include it.
 RESERVED = [
     (re.compile(r"^mpi\.h$"), ("src/parallel/",), "MPI"),

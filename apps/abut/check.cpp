@@ -1,43 +1,59 @@
 #include <fmt/core.h>
 
 #include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "commands.hpp"
-#include "deck_input.hpp"
-#include "driver.hpp"
+#include "findings.hpp"
 #include "output/json.hpp"
 #include "output/summary.hpp"
+#include "run/loaded_model.hpp"
 
 namespace abut::app {
+namespace {
+
+void print_json(bool good, const std::vector<Diagnostic>& findings, const std::vector<std::string>& decks, const Model* model,
+                const Inspection& inspection) {
+  output::Json j{{"ok", good}, {"decks", decks}, {"findings", output::findings_json(findings)}};
+  if (model != nullptr) {
+    j["contact"] = output::contact_json(inspection.contact);
+    j["model"] = output::model_json(model->impl().model, inspection.part_mass);
+    if (inspection.first_step > 0.0) j["step"] = output::first_step_text(inspection);
+  }
+  fmt::print("{}", output::json_text(j));
+}
+
+}  // namespace
 
 int check_command(const CheckArguments& arguments) {
-  DeckInput input = read_deck(arguments.deck);
-  const bool readable = !input.findings.has_errors();
-  RunSettings settings;
-  settings.profile = profile_of(arguments.profile);
-  Description description;
-  if (readable) {
-    if (arguments.orient) orient(input, arguments.deck, arguments.write_deck);
-    description = describe_model(input.model, settings, true);
-    for (const init::ContactFinding& c : description.contact) input.findings.add(init::to_diagnostic(c));
-  }
-  const bool good = !input.findings.has_errors();
-
-  if (arguments.json) {
-    output::Json j{{"ok", good}, {"decks", input.files}, {"findings", output::findings_json(input.findings.all())}};
-    if (readable) {
-      j["contact"] = output::contact_json(description.contact);
-      j["model"] = output::model_json(input.model, description.part_mass);
-      if (!description.step.empty()) j["step"] = description.step;
+  std::vector<Diagnostic> findings;
+  try {
+    const Model model = Model::read(arguments.deck, {.orient = arguments.orient, .write_deck = arguments.write_deck});
+    const Inspection inspection = model.inspect(choices_of(arguments.profile, {}), true);
+    findings.assign(model.findings().begin(), model.findings().end());
+    bool good = true;
+    for (const ContactFinding& c : inspection.contact) {
+      findings.push_back(to_diagnostic(c));
+      good = good && findings.back().severity != Severity::error;
     }
-    fmt::print("{}", output::json_text(j));
+    if (arguments.json) {
+      print_json(good, findings, {model.files().begin(), model.files().end()}, &model, inspection);
+      return good ? 0 : 1;
+    }
+    print_findings(findings);
+    fmt::print("{}", output::model_summary(model.impl().model, inspection.part_mass));
+    if (inspection.first_step > 0.0) fmt::print("Time step   {}\n", output::first_step_text(inspection));
     return good ? 0 : 1;
+  } catch (const InputError& error) {
+    if (arguments.json) {
+      print_json(false, error.diagnostics().all(), {arguments.deck.string()}, nullptr, {});
+    } else {
+      print_findings(error.diagnostics().all());
+    }
+    return 1;
   }
-  print_findings(input.findings);
-  if (!readable) return 1;
-  fmt::print("{}", output::model_summary(input.model, description.part_mass));
-  if (!description.step.empty()) fmt::print("Time step   {}\n", description.step);
-  return good ? 0 : 1;
 }
 
 }  // namespace abut::app

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
-#include "abut/contact/options.hpp"
-#include "core/profile.hpp"
+#include "abut/model.hpp"
 
 namespace abut::app {
 
@@ -33,18 +31,15 @@ struct CheckArguments {
   std::filesystem::path write_deck;
 };
 
-/// "abut 0.1.0 (commit), compiler, instruction set".
-[[nodiscard]] std::string version_text();
-
 [[nodiscard]] int run_command(const RunArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
 
-/// @pre name is "standard" or "reference"
-[[nodiscard]] inline Profile profile_of(std::string_view name) { return name == "reference" ? Profile::reference() : Profile::standard(); }
-/// @pre name is "", "stiffening" or "constant"
-[[nodiscard]] inline std::optional<contact::Law> law_of(std::string_view name) {
-  if (name.empty()) return std::nullopt;
-  return name == "constant" ? contact::Law::constant : contact::Law::stiffening;
+/// @pre profile is "standard" or "reference", law is "", "stiffening" or "constant"
+[[nodiscard]] inline Choices choices_of(std::string_view profile, std::string_view law) {
+  Choices choices;
+  choices.rules = profile == "reference" ? Rules::reference : Rules::standard;
+  if (!law.empty()) choices.interface_law = law == "constant" ? contact::Law::constant : contact::Law::stiffening;
+  return choices;
 }
 
 }  // namespace abut::app

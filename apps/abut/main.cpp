@@ -6,7 +6,9 @@
 #include <exception>
 #include <limits>
 
+#include "abut/run.hpp"
 #include "commands.hpp"
+#include "findings.hpp"
 
 namespace {
 
@@ -32,7 +34,7 @@ int main(int argc, char** argv) {
   CLI::App app{"abut: explicit dynamics with two-surface contact, from Radioss decks"};
   app.footer(examples);
   app.require_subcommand(1);
-  app.set_version_flag("--version", [] { return version_text(); });
+  app.set_version_flag("--version", [] { return abut::version_text(); });
   const CLI::IsMember profiles({"standard", "reference"});
   const CLI::IsMember laws({"stiffening", "constant"});
 
@@ -81,6 +83,9 @@ int main(int argc, char** argv) {
   check.orient = check_orient == "auto";
   try {
     return run_app->parsed() ? run_command(run) : check_command(check);
+  } catch (const abut::InputError& e) {
+    print_findings(e.diagnostics().all());
+    return 1;
   } catch (const std::exception& e) {
     fmt::print(stderr, "abut: {}\n", e.what());
     return 1;

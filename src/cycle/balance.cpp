@@ -77,8 +77,8 @@ void Cycle::close_balance() {
   const bool product_form = options_.profile.kinetic_energy == Profile::KineticEnergy::leapfrog;
   const KineticSums kinetic = ledger_.sum(state_, product_form, pool_);
   const double external = (loaded_ ? loads_.ledger_work(state_) : 0.0) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
-                          imposed_.ledger_work(state_) + walls_.ledger_work(state_);
-  b.extw += options_.profile.external_work == Profile::ExternalWork::discrete ? external : booked_work_;
+                          imposed_.ledger_work(state_) + walls_.ledger_work(state_) + edited_work_;
+  b.extw += options_.profile.external_work == Profile::ExternalWork::discrete ? external : booked_work_ + edited_work_;
   const double constraint_work = external + bodies_.ledger_work(state_);
   const double t_star = kinetic.leapfrog + bodies_.ledger_correction(state_);
   const double ledger = ledger_.close(t_star, constraint_work);
@@ -154,16 +154,33 @@ void Cycle::check_minimum_step(const elements::Group& group, const elements::Gro
                  std::to_string(result.step) + ", below the minimum of /DT, at cycle " + std::to_string(state_.times.cycle));
 }
 
-Snapshot Cycle::snapshot() {
-  if (animation_due_) {
-    std::fill(contact_normal_.begin(), contact_normal_.end(), Vec3{});
-    std::fill(contact_tangential_.begin(), contact_tangential_.end(), Vec3{});
-    std::fill(contact_area_.begin(), contact_area_.end(), 0.0);
-    for (const init::RunInterface& i : interfaces_) {
-      i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
-      i.contact.add_nodal_area(state_.x, contact_area_);
-    }
+void Cycle::fill_contact_fields() {
+  std::fill(contact_normal_.begin(), contact_normal_.end(), Vec3{});
+  std::fill(contact_tangential_.begin(), contact_tangential_.end(), Vec3{});
+  std::fill(contact_area_.begin(), contact_area_.end(), 0.0);
+  for (const init::RunInterface& i : interfaces_) {
+    i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
+    i.contact.add_nodal_area(state_.x, contact_area_);
   }
+}
+
+Snapshot Cycle::view() {
+  fill_contact_fields();
+  return snapshot();
+}
+
+Snapshot Cycle::snapshot_of_cycle() {
+  if (animation_due_) fill_contact_fields();
+  Snapshot s = snapshot();
+  s.history_due = history_due_;
+  s.animation_due = animation_due_;
+  s.listing_due = listing_due_;
+  s.hash_due = options_.hash_every > 0 && state_.times.cycle % options_.hash_every == 0;
+  if (s.hash_due) s.state_hash = hash();
+  return s;
+}
+
+Snapshot Cycle::snapshot() const {
   Snapshot s;
   s.model = &model_;
   s.state = &state_;
@@ -179,11 +196,6 @@ Snapshot Cycle::snapshot() {
   s.sections = sections_.results();
   s.accelerometers = accelerometers_.results();
   s.controller = controller_;
-  s.history_due = history_due_;
-  s.animation_due = animation_due_;
-  s.listing_due = listing_due_;
-  s.hash_due = options_.hash_every > 0 && state_.times.cycle % options_.hash_every == 0;
-  if (s.hash_due) s.state_hash = hash();
   return s;
 }
 

@@ -36,6 +36,7 @@ void Cycle::advance(Sink& sink) {
     const Timer timer(*this, p_constraints);
     sections_.gather(state_, slots_);  // 11
     bodies_.gather(state_, boundary_);
+    edited_work_ = take_over_edits();
     walls_.add_reaction(state_);                                                  // 12
     scaled_energy_ += time_step_->scale_masses(state_);                           // 13
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
@@ -56,7 +57,7 @@ void Cycle::advance(Sink& sink) {
   }
   {
     const Timer timer(*this, p_output);  // 26
-    const Snapshot now = snapshot();
+    const Snapshot now = snapshot_of_cycle();
     if (!begun_) sink.begin(now);
     begun_ = true;
     sink.cycle(now);

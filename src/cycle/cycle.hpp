@@ -39,10 +39,19 @@ class Cycle {
   [[nodiscard]] const state::State& state() const { return state_; }
   [[nodiscard]] const state::Balance& balance() const { return balance_; }
   [[nodiscard]] const StepController& controller() const { return controller_; }
+  [[nodiscard]] std::span<const InterfaceResult> interface_results() const { return interface_results_; }
   [[nodiscard]] std::vector<PhaseTime> phases() const;
   [[nodiscard]] double element_count() const;
   [[nodiscard]] double worst_error() const { return worst_error_; }
   [[nodiscard]] double worst_contact_error() const { return worst_contact_error_; }
+  /// What an output may read, between two cycles: positions are one step ahead of forces.
+  [[nodiscard]] Snapshot view();
+  /// Velocities to be changed by the caller, #N: the next cycle takes them over before it accelerates (cycle/edits.cpp).
+  [[nodiscard]] std::span<Vec3> edit_velocities();
+  [[nodiscard]] std::span<Vec3> edit_angular_velocities();
+  /// Velocities with what the caller has changed.
+  [[nodiscard]] std::span<const Vec3> velocities() const { return edited_v_.empty() ? state_.v : edited_v_; }
+  [[nodiscard]] std::span<const Vec3> angular_velocities() const { return edited_w_.empty() ? state_.w : edited_w_; }
   /// Hash over every bit of the state that influences the future.
   [[nodiscard]] std::uint64_t hash();
 
@@ -63,7 +72,10 @@ class Cycle {
   void close_balance();
   void integrate();
   void check_finite();
-  [[nodiscard]] Snapshot snapshot();
+  [[nodiscard]] Snapshot snapshot() const;
+  [[nodiscard]] Snapshot snapshot_of_cycle();
+  void fill_contact_fields();
+  [[nodiscard]] double take_over_edits();
   [[nodiscard]] Id element_id(const elements::Group& group, Index element) const;
 
   const model::Model& model_;
@@ -103,9 +115,11 @@ class Cycle {
   bool begun_ = false;
   bool eroded_ = false;
   double scaled_energy_ = 0.0;
-  double removed_energy_ = 0.0;  // held by deleted elements that their groups no longer count
-  double booked_work_ = 0.0;     // external work of this cycle as the reference program books it
-  int beyond_limit_ = 0;         // cycles in a row with an energy error beyond the limit
+  double removed_energy_ = 0.0;            // held by deleted elements that their groups no longer count
+  std::vector<Vec3> edited_v_, edited_w_;  // #N, empty: nothing was changed
+  double edited_work_ = 0.0;               // energy that the caller's changes brought in this cycle
+  double booked_work_ = 0.0;               // external work of this cycle as the reference program books it
+  int beyond_limit_ = 0;                   // cycles in a row with an energy error beyond the limit
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;

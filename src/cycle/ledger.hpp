@@ -30,6 +30,8 @@ class Ledger {
 
   /// Before the first cycle: T* of the start.
   void open(double kinetic) { start_ = kinetic; }
+  /// The start has this much more: velocities that were changed before the first cycle.
+  void raise_start(double kinetic) { start_ += kinetic; }
 
   /// Closes the cycle after sum(). @param kinetic T* of the structure. @param constraint_work bookings of loads and
   /// constraints. @return T* minus its start minus all works so far: zero to rounding

@@ -1,7 +1,6 @@
 #include "cycle/run.hpp"
 
 #include <chrono>
-#include <sstream>
 #include <utility>
 
 #include "cycle/cycle.hpp"
@@ -9,28 +8,6 @@
 namespace abut::cycle {
 
 namespace {
-
-std::string_view kind_name(StepController::Kind kind) {
-  switch (kind) {
-    case StepController::Kind::none:
-      return "nothing";
-    case StepController::Kind::shell:
-      return "shell";
-    case StepController::Kind::sh3n:
-      return "triangle";
-    case StepController::Kind::brick:
-      return "brick";
-    case StepController::Kind::tetra:
-      return "tetrahedron";
-    case StepController::Kind::node:
-      return "node";
-    case StepController::Kind::interface:
-      return "contact at node";
-    case StepController::Kind::fixed:
-      return "the deck's step limit";
-  }
-  return "?";
-}
 
 /// Sees one cycle and forgets it.
 class NullSink final : public Sink {
@@ -51,14 +28,8 @@ RunReport run(const model::Model& model, const RunOptions& options, Sink& sink) 
     options.phases->push_back({"init", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
   }
   try {
-    while (!cycle.finished()) {
-      if (options.interrupt != nullptr && options.interrupt->load(std::memory_order_relaxed)) {
-        outcome = {Outcome::Kind::interrupted, "interrupted by the user", 0, 0.0};
-        break;
-      }
-      cycle.advance(sink);
-    }
-    if (outcome.kind == Outcome::Kind::finished) outcome.message = "the final time is reached";
+    while (!cycle.finished()) cycle.advance(sink);
+    outcome.message = "the final time is reached";
   } catch (const RunError& error) { outcome = {Outcome::Kind::failed, error.what(), 0, 0.0}; }
   outcome.cycles = cycle.state().times.cycle;
   outcome.time = cycle.state().times.t;
@@ -73,15 +44,11 @@ RunReport run(const model::Model& model, const RunOptions& options, Sink& sink) 
   return report;
 }
 
-std::string describe_first_step(const model::Model& model, const RunOptions& options) {
+FirstStep first_step(const model::Model& model, const RunOptions& options) {
   Cycle cycle(model, options);
   NullSink sink;
   cycle.advance(sink);
-  const StepController& who = cycle.controller();
-  std::ostringstream text;
-  text << "first time step " << cycle.state().times.h_minus << ", controlled by " << kind_name(who.kind);
-  if (who.id != 0) text << ' ' << who.id;
-  return text.str();
+  return {cycle.state().times.h_minus, cycle.controller()};
 }
 
 }  // namespace abut::cycle

@@ -1,7 +1,6 @@
 // A run from a model to its end.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,19 +13,14 @@
 
 namespace abut::cycle {
 
-/// Wall-clock seconds of one phase of a run.
-struct PhaseTime {
-  std::string name;
-  double seconds = 0.0;
-};
+using abut::PhaseTime;
 
 struct RunOptions {
   int threads = 1;
   Profile profile;
-  std::optional<contact::Law> interface_law;     ///< overrides the profile's law for every interface
-  int hash_every = 0;                            ///< cycles between state hashes, 0 = none
-  const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler: the run ends cleanly
-  std::vector<PhaseTime>* phases = nullptr;      ///< the phases are appended here before the sink's end()
+  std::optional<contact::Law> interface_law;  ///< overrides the profile's law for every interface
+  int hash_every = 0;                         ///< cycles between state hashes, 0 = none
+  std::vector<PhaseTime>* phases = nullptr;   ///< run() appends the phases here before the sink's end()
 };
 
 struct RunReport {
@@ -41,7 +35,11 @@ struct RunReport {
 /// @throws nothing for a run that fails (Outcome::failed says why); RunError from a sink passes through after end()
 [[nodiscard]] RunReport run(const model::Model& model, const RunOptions& options, Sink& sink);
 
-/// First step of the model and what controls it, in one sentence (`abut check`).
-[[nodiscard]] std::string describe_first_step(const model::Model& model, const RunOptions& options);
+/// First step of the model and what controls it.
+struct FirstStep {
+  double step = 0.0;
+  StepController controller;
+};
+[[nodiscard]] FirstStep first_step(const model::Model& model, const RunOptions& options);
 
 }  // namespace abut::cycle

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "abut/contact/interface.hpp"
+#include "abut/results.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "constraints/accelerometers.hpp"
@@ -21,25 +22,14 @@
 
 namespace abut::cycle {
 
-/// Who gives the time step.
-struct StepController {
-  enum class Kind { none, shell, sh3n, brick, tetra, node, interface, fixed } kind = Kind::none;
-  Id id = 0;
-};
+using abut::InterfaceResult;
+using abut::Outcome;
+using abut::StepController;
 
 struct PartResult {
   double ie = 0.0, he = 0.0;
   elements::PartSums sums;
   Index eroded = 0;
-};
-/// Forces are those of this cycle; impulses their time integrals (numerics.md 7.4.2, 6.1.5).
-struct InterfaceResult {
-  Vec3 normal_force, tangential_force;  ///< on the second (main) surface
-  Vec3 normal_impulse, tangential_impulse;
-  double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;
-  Index in_contact = 0;
-  double largest_penetration = 0.0;
-  Index crossed = 0;  ///< nodes that would have jumped through in the last step
 };
 using WallResult = constraints::WallSums;
 using BodyResult = constraints::BodySums;
@@ -67,14 +57,6 @@ struct Snapshot {
   bool listing_due = false;      ///< a line of the cycle listing belongs to this cycle
   std::uint64_t state_hash = 0;  ///< valid when hash_due
   bool hash_due = false;
-};
-
-/// Why and how a run ended.
-struct Outcome {
-  enum class Kind { finished, stopped, interrupted, failed } kind = Kind::finished;
-  std::string message;
-  std::int64_t cycles = 0;
-  double time = 0.0;
 };
 
 class Sink {

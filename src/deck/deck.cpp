@@ -14,13 +14,32 @@ namespace fs = std::filesystem;
 namespace {
 
 /// NAME_0001.rad beside NAME_0000.rad, NAMED01 beside NAMED00; empty when the name follows neither rule.
-fs::path engine_path(const fs::path& starter, char run) {
-  std::string stem = starter.stem().string();
-  const bool four_digits = stem.size() > 5 && stem.compare(stem.size() - 5, 5, "_0000") == 0;
-  const bool two_digits = stem.size() > 3 && stem.compare(stem.size() - 3, 3, "D00") == 0;
-  if (!four_digits && !two_digits) return {};
-  stem.back() = run;
-  return starter.parent_path() / fs::path(stem += starter.extension().string());
+fs::path engine_path(const fs::path& starter, int run) {
+  const std::string stem = starter.stem().string();
+  const std::string extension = starter.extension().string();
+  if (stem.size() > 5 && stem.ends_with("_0000")) {
+    return starter.parent_path() / fmt::format("{}{:04}{}", stem.substr(0, stem.size() - 4), run, extension);
+  }
+  if (stem.size() > 3 && stem.ends_with("D00") && run <= 99) {
+    return starter.parent_path() / fmt::format("{}{:02}{}", stem.substr(0, stem.size() - 2), run, extension);
+  }
+  return {};
+}
+
+/// Reads the Engine deck of a run into `deck`; false when there is none.
+bool read_engine(const fs::path& starter, int run, Deck& deck, Diagnostics& diagnostics) {
+  std::error_code error;
+  const fs::path path = engine_path(starter, run);
+  if (path.empty() || !fs::exists(path, error)) return false;
+  Place place;
+  place.file = printable(path.string());
+  std::string text;
+  if (!read_file(path, text)) {
+    diagnostics.error("deck.file", place, "the Engine deck cannot be read");
+    return false;
+  }
+  scan_engine(deck, diagnostics, std::move(text), place.file);
+  return true;
 }
 
 }  // namespace
@@ -67,24 +86,11 @@ DeckPair read(const fs::path& starter, Diagnostics& diagnostics) {
   }
   StarterScanner scanner(pair.starter, diagnostics, starter);
   scanner.scan_main(std::move(text), place.file, start);
-  if (pair.has_engine) return pair;
-
-  std::error_code error;
-  const fs::path engine = engine_path(starter, '1');
-  if (engine.empty() || !fs::exists(engine, error)) return pair;
-  Place engine_place;
-  engine_place.file = printable(engine.string());
-  if (!read_file(engine, text)) {
-    diagnostics.error("deck.file", engine_place, "the Engine deck cannot be read");
-    return pair;
-  }
-  scan_engine(pair.engine, diagnostics, std::move(text), engine_place.file);
-  pair.has_engine = true;
-  const fs::path second = engine_path(starter, '2');
-  if (fs::exists(second, error)) {
-    Place p;
-    p.file = printable(second.string());
-    diagnostics.warning("deck.restart", std::move(p), "restart decks are not run: abut runs the first Engine deck only");
+  if (!pair.has_engine) pair.has_engine = read_engine(starter, 1, pair.engine, diagnostics);
+  for (int run = 2; pair.has_engine; ++run) {
+    Deck next;
+    if (!read_engine(starter, run, next, diagnostics)) break;
+    pair.restarts.push_back(std::move(next));
   }
   return pair;
 }

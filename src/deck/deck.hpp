@@ -52,14 +52,15 @@ struct Deck {
   [[nodiscard]] Place place(const Block& block, const Card& card) const;
 };
 
-/// Starter and Engine part of one run; the Engine part is found beside the Starter deck or inside a one-file deck.
+/// Starter deck and Engine decks; the first Engine deck is found beside the Starter deck or inside a one-file deck.
 struct DeckPair {
   Deck starter;
   Deck engine;
   bool has_engine = false;
+  std::vector<Deck> restarts;  ///< of runs 2, 3, ...: each continues the one before
 };
 
-/// Reads NAME_0000.rad with its includes and NAME_0001.rad beside it (deck-format.md A).
+/// Reads NAME_0000.rad with its includes and NAME_0001.rad, NAME_0002.rad, ... beside it (deck-format.md A).
 /// Findings (missing include, unreadable file, ...) are added to `diagnostics`; nothing is thrown for bad input.
 [[nodiscard]] DeckPair read(const std::filesystem::path& starter, Diagnostics& diagnostics);
 

@@ -6,20 +6,14 @@
 #include <vector>
 
 #include "abut/contact/inspect.hpp"
+#include "abut/model.hpp"
 #include "core/diagnostic.hpp"
 #include "core/profile.hpp"
 #include "model/model.hpp"
 
 namespace abut::init {
 
-struct ContactFinding {
-  Id interface_id = 0;
-  Id surface_id = 0;  ///< 0: the interface as a whole, or its node group
-  contact::Finding finding;
-  std::vector<Id> nodes;                    ///< ids of finding.nodes
-  std::vector<std::array<Id, 4>> segments;  ///< node ids of finding.facets
-  Place place;
-};
+using abut::ContactFinding;
 
 /// What the first cycle knows. Spans may be empty, the step 0, where it is not known.
 struct InspectedState {

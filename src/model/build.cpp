@@ -6,7 +6,7 @@
 
 namespace abut::model {
 
-Model build(const deck::DeckPair& deck, Diagnostics& diagnostics) {
+Model build(const deck::DeckPair& deck, Diagnostics& diagnostics, int run) {
   Model model;
   if (deck.starter.blocks.empty()) return model;  // reported by the deck stage
   Context c;
@@ -22,7 +22,8 @@ Model build(const deck::DeckPair& deck, Diagnostics& diagnostics) {
   read_interfaces(c);
   read_outputs(c);
   if (deck.has_engine) {
-    read_engine(c, deck.engine);
+    read_engine(c, deck.engine, 1);
+    for (int n = 2; n <= run; ++n) read_engine(c, deck.restarts[static_cast<std::size_t>(n) - 2], n);
   } else {
     Place place;
     place.file = deck.starter.files.front();

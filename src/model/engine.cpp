@@ -110,7 +110,7 @@ std::string animation_field(const deck::Block& block) {
 
 class EngineReader {
  public:
-  EngineReader(Context& c, const deck::Deck& engine) : c_(c), engine_(engine), k_(c.model->controls) {}
+  EngineReader(Context& c, const deck::Deck& engine, int run) : c_(c), engine_(engine), k_(c.model->controls), run_(run) {}
 
   void read() {
     // The general step first, so that the order of the deck does not decide between it and the one of a type.
@@ -123,7 +123,8 @@ class EngineReader {
     Place place;
     place.file = engine_.files.empty() ? std::string{} : engine_.files.front();
     if (!has_run_) {
-      c_.diagnostics->error("engine.missing_run", place, "the Engine deck has no /RUN/name/1 with the final time on the line below");
+      c_.diagnostics->error("engine.missing_run", place,
+                            fmt::format("the Engine deck has no /RUN/name/{} with the final time on the line below", run_));
     }
     if (!refused_.empty()) {
       c_.diagnostics->error(
@@ -191,14 +192,16 @@ class EngineReader {
   bool read_run(const deck::Block& block) {
     has_run_ = true;
     k_.run_name = std::string(block.word(1));
-    if (!block.word(2).empty()) {
+    if (!block.word(2).empty() || run_ > 1) {
       const auto number = deck::parse_integer(block.word(2));
-      if (!number || *number != 1) {
-        c_.diagnostics->error("engine.bad_run", engine_.place(block),
-                              fmt::format("'{}' is not run 1; a run that continues another one is not supported, write /RUN/{}/1",
-                                          block.word(2), k_.run_name));
+      if (!number || *number != run_) {
+        c_.diagnostics->error(
+            "engine.bad_run", engine_.place(block),
+            fmt::format("'{}' is not run {}, which this file is of by its name; write /RUN/{}/{}", block.word(2), run_, k_.run_name, run_));
       }
     }
+    const double before = k_.t_end;
+    k_.run_number = run_;
     FreeFormat d = data(block);
     if (d.empty()) {
       c_.diagnostics->error("engine.missing_time", engine_.place(block), "the final time is missing; write it on the line below /RUN");
@@ -208,6 +211,8 @@ class EngineReader {
     k_.t_end = d.real(0, "Tstop");
     if (k_.t_end <= 0.0 && c_.diagnostics->error_count() == errors)
       d.bad(0, "Tstop", fmt::format("{} is not a final time; it must be greater than 0", k_.t_end));
+    if (run_ > 1 && k_.t_end <= before && c_.diagnostics->error_count() == errors)
+      d.bad(0, "Tstop", fmt::format("{} is not after the final time {} of run {}, which this run continues", k_.t_end, before, run_ - 1));
     return true;
   }
 
@@ -372,6 +377,7 @@ class EngineReader {
   Context& c_;
   const deck::Deck& engine_;
   Controls& k_;
+  int run_;
   bool has_run_ = false;
   std::vector<std::string> refused_;
   std::set<std::string> skipped_;
@@ -379,6 +385,6 @@ class EngineReader {
 
 }  // namespace
 
-void read_engine(Context& c, const deck::Deck& engine) { EngineReader(c, engine).read(); }
+void read_engine(Context& c, const deck::Deck& engine, int run) { EngineReader(c, engine, run).read(); }
 
 }  // namespace abut::model

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "abut/model.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "core/diagnostic.hpp"
@@ -18,11 +19,7 @@ namespace abut::model {
 
 inline constexpr double infinity = 1e30;  ///< "never", "no limit" of the deck format
 
-/// Size of the work units in SI (kg, m, s) and their names as the deck writes them.
-struct Units {
-  double mass = 1.0, length = 1.0, time = 1.0;
-  std::string mass_name = "kg", length_name = "m", time_name = "s";
-};
+using abut::Units;
 
 // ---- materials (numerics.md 5) ------------------------------------------------------------------------------------
 
@@ -101,7 +98,7 @@ struct Elements {
   [[nodiscard]] Index size() const { return static_cast<Index>(id.size()); }
 };
 
-enum class ElementKind { none, shell4, shell3, brick, tetra };
+using abut::ElementKind;
 
 struct ElementRef {
   ElementKind kind = ElementKind::none;

@@ -117,7 +117,7 @@ void read_sensors(Context& c);     ///< /SENSOR
 void read_conditions(Context& c);  ///< /BCS, /INIVEL, /IMP*, /CLOAD, /PLOAD, /GRAV, /ADMAS, /RBODY, /RWALL
 void read_interfaces(Context& c);  ///< /INTER
 void read_outputs(Context& c);     ///< /TH, /SECT, /ACCEL
-void read_engine(Context& c, const deck::Deck& engine);  ///< Engine deck -> Model::controls
+void read_engine(Context& c, const deck::Deck& engine, int run);  ///< Engine deck of a run -> changes of Model::controls
 void check_keywords(Context& c);  ///< keywords nobody took: refused when they can change physics, else listed as skipped
 [[nodiscard]] bool is_refused(const deck::Block& block);  ///< check_keywords refuses this block: readers pass over it
 void validate(Context& c);  ///< what can only be judged with everything read (shared nodes, zero areas, masses ...)

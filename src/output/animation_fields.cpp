@@ -101,18 +101,27 @@ std::string normalised(std::string s) {
   return s;
 }
 
+const std::vector<std::pair<std::string_view, NodeField>>& selectable_node_fields() {
+  static const std::vector<std::pair<std::string_view, NodeField>> table{{"VECT/ACC", acceleration},
+                                                                         {"VECT/VROT", angular_velocity},
+                                                                         {"VECT/FINT", internal_force},
+                                                                         {"VECT/FEXT", external_force},
+                                                                         {"MASS", mass}};
+  return table;
+}
+
+const std::vector<std::pair<std::string_view, CellField>>& selectable_cell_fields() {
+  static const std::vector<std::pair<std::string_view, CellField>> table{{"ELEM/ENER", energy},    {"ELEM/P", pressure},
+                                                                         {"ELEM/DENS", density},   {"ELEM/HOURG", hourglass},
+                                                                         {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
+  return table;
+}
+
 }  // namespace
 
 AnimationFields select_animation_fields(const std::vector<std::string>& selections) {
-  static const std::vector<std::pair<std::string_view, NodeField>> node_fields{{"VECT/ACC", acceleration},
-                                                                               {"VECT/VROT", angular_velocity},
-                                                                               {"VECT/FINT", internal_force},
-                                                                               {"VECT/FEXT", external_force},
-                                                                               {"MASS", mass}};
-  static const std::vector<std::pair<std::string_view, CellField>> cell_fields{{"ELEM/ENER", energy},    {"ELEM/P", pressure},
-                                                                               {"ELEM/DENS", density},   {"ELEM/HOURG", hourglass},
-                                                                               {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
-
+  const auto& node_fields = selectable_node_fields();
+  const auto& cell_fields = selectable_cell_fields();
   AnimationFields fields{
       {displacement, velocity, contact_force, pressure_normal, pressure_tangential}, {plastic_strain, von_mises, stress}, {}};
   const auto add_once = [](auto& list, const auto& field) {
@@ -133,6 +142,13 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
     }
   }
   return fields;
+}
+
+AnimationFields every_animation_field() {
+  std::vector<std::string> selections;
+  for (const auto& entry : selectable_node_fields()) selections.emplace_back(entry.first);
+  for (const auto& entry : selectable_cell_fields()) selections.emplace_back(entry.first);
+  return select_animation_fields(selections);
 }
 
 }  // namespace abut::output

@@ -44,4 +44,7 @@ struct AnimationFields {
 /// @param selections  model::Controls::animation_fields, upper case
 [[nodiscard]] AnimationFields select_animation_fields(const std::vector<std::string>& selections);
 
+/// All that there are.
+[[nodiscard]] AnimationFields every_animation_field();
+
 }  // namespace abut::output

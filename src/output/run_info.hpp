@@ -6,20 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "abut/run.hpp"
 #include "core/diagnostic.hpp"
 #include "cycle/run.hpp"
 #include "init/contact_inspection.hpp"
 
 namespace abut::output {
 
-/// What the watch over the contacts found, as it happened.
-struct RunFinding {
-  Diagnostic diagnostic;
-  Id interface_id = 0;
-  double time = 0.0;
-  std::int64_t cycle = 0;
-  double measure = 0.0;
-};
+using abut::RunFinding;
 using RunFindings = std::vector<RunFinding>;
 
 struct RunInfo {

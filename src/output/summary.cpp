@@ -147,6 +147,14 @@ std::string_view controller_name(cycle::StepController::Kind kind) {
   return "-";
 }
 
+std::string first_step_text(const Inspection& inspection) {
+  constexpr std::string_view names[] = {"nothing",     "shell", "triangle",        "brick",
+                                        "tetrahedron", "node",  "contact at node", "the deck's step limit"};
+  const StepController& who = inspection.controller;
+  return fmt::format("first time step {:.6g}, controlled by {}{}", inspection.first_step, names[static_cast<std::size_t>(who.kind)],
+                     who.id != 0 ? fmt::format(" {}", who.id) : "");
+}
+
 std::string_view outcome_name(cycle::Outcome::Kind kind) {
   using Kind = cycle::Outcome::Kind;
   switch (kind) {

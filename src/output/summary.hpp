@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "abut/model.hpp"
 #include "cycle/sink.hpp"
 #include "model/model.hpp"
 
@@ -24,6 +25,9 @@ namespace abut::output {
 [[nodiscard]] std::string_view outcome_name(cycle::Outcome::Kind kind);
 /// "finished at time 0.2 after 77 cycles" with the outcome's message behind a colon.
 [[nodiscard]] std::string outcome_text(const cycle::Outcome& outcome);
+
+/// "first time step 1e-06, controlled by shell 12".
+[[nodiscard]] std::string first_step_text(const Inspection& inspection);
 
 /// Elements of all kinds.
 [[nodiscard]] Index element_count(const model::Model& model);

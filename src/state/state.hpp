@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "abut/results.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 
@@ -41,17 +42,6 @@ struct State {
   [[nodiscard]] Index size() const { return static_cast<Index>(mass.size()); }
 };
 
-/// Terms of the balance at t^n (columns GLOBAL/... of the time history).
-struct Balance {
-  double ie = 0.0, he = 0.0, ke = 0.0, ker = 0.0;
-  double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;  ///< interfaces: stored, friction, damping, made or lost
-  double extw = 0.0, xe = 0.0;
-  double initial = 0.0;  ///< sum of the terms at the start
-  double largest = 0.0;  ///< largest term so far
-  double err = 0.0;      ///< GLOBAL/ERR
-  double ledger = 0.0;   ///< GLOBAL/LEDGER
-  Vec3 momentum;
-  double mass = 0.0, added_mass = 0.0;
-};
+using abut::Balance;
 
 }  // namespace abut::state

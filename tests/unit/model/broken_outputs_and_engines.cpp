@@ -31,7 +31,7 @@ std::vector<BrokenDeck> broken_outputs_and_engines() {
      {"deck_0001.rad:2: /RUN/base/1 field 'Tstop': -0.05 is not a final time; it must be greater than 0"}},
     {"second run", Changed::engine, "/RUN/base/1", 0,
      "/RUN/base/2",
-     {"deck_0001.rad:1: /RUN/base/2: '2' is not run 1; a run that continues another one is not supported, write /RUN/base/1"}},
+     {"deck_0001.rad:1: /RUN/base/2: '2' is not run 1, which this file is of by its name; write /RUN/base/1"}},
     {"scale above one", Changed::engine, "/DT", 1,
      "1.2 0.",
      {"deck_0001.rad:12: warning: /DT field 'Tsca': 1.2 is above 1; the step may be beyond the stable one, 0.9 is usual"}},

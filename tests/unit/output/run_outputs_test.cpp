@@ -66,12 +66,13 @@ TEST(RunOutputs, ARunFillsItsFolderUnderTheNamesOfTheDesign) {
   const test::TemporaryFolder temporary;
   const RunFolder folder{temporary.path() / "a" / "new folder", "scene"};
   Scene scene;
-  const auto sinks = open_run_outputs(folder, {}, {});
+  SinkSet sinks;
+  add_run_outputs(sinks, folder, {}, {});
   cycle::Snapshot s = scene.snapshot();
-  sinks->begin(s);
+  sinks.begin(s);
   s.history_due = s.animation_due = s.listing_due = true;
-  sinks->cycle(s);
-  sinks->end({});
+  sinks.cycle(s);
+  sinks.end({});
   for (const char* file : {"scene.out", "scene_th.csv", "scene.pvd", "scene_anim/scene_00000.vtu", "run.json"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.directory / file)) << file;
   }
@@ -84,10 +85,11 @@ TEST(RunOutputs, AFullDiskDuringTheRunLeavesTheOtherOutputsComplete) {
   const RunFolder folder{temporary.path(), "scene"};
   std::filesystem::create_symlink("/dev/full", folder.history());
   Scene scene;
-  const auto sinks = open_run_outputs(folder, {}, {});
-  const std::string message = message_of([&] { sinks->begin(scene.snapshot()); });
+  SinkSet sinks;
+  add_run_outputs(sinks, folder, {}, {});
+  const std::string message = message_of([&] { sinks.begin(scene.snapshot()); });
   EXPECT_EQ(message, "cannot write '" + folder.history().string() + "': No space left on device");
-  EXPECT_EQ(message_of([&] { sinks->end({cycle::Outcome::Kind::failed, message, 0, 0.0}); }), "");
+  EXPECT_EQ(message_of([&] { sinks.end({cycle::Outcome::Kind::failed, message, 0, 0.0}); }), "");
   EXPECT_NE(test::slurp(folder.listing()).find("The run failed at time 0 after 0 cycles: " + message), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(test::slurp(folder.manifest()))["outcome"]["message"], message);
 }
@@ -96,7 +98,10 @@ TEST(RunOutputs, AFolderThatCannotBeMadeIsNamed) {
   const test::TemporaryFolder temporary;
   write_atomically(temporary.path() / "file", "");
   const RunFolder folder{temporary.path() / "file" / "run", "scene"};
-  EXPECT_EQ(message_of([&] { (void)open_run_outputs(folder, {}, {}); }),
+  EXPECT_EQ(message_of([&] {
+              SinkSet sinks;
+              add_run_outputs(sinks, folder, {}, {});
+            }),
             "cannot create the folder '" + folder.directory.string() + "': Not a directory");
 }
 

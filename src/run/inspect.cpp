@@ -1,18 +1,12 @@
-#include "driver.hpp"
-
+// What can be said of a model before it runs.
 #include <algorithm>
+#include <utility>
 
 #include "cycle/cycle.hpp"
+#include "init/contact_inspection.hpp"
+#include "run/loaded_model.hpp"
 
-namespace abut::app {
-
-cycle::Outcome run_model(const model::Model& model, const RunSettings& settings, cycle::Sink& sink,
-                         std::vector<output::PhaseTime>& phases) {
-  RunSettings with_phases = settings;
-  with_phases.phases = &phases;
-  return cycle::run(model, with_phases, sink).outcome;
-}
-
+namespace abut {
 namespace {
 
 /// Keeps what the first cycle of a model without its interfaces shows.
@@ -40,8 +34,10 @@ class FirstCycle final : public cycle::Sink {
 
 }  // namespace
 
-Description describe_model(const model::Model& model, const RunSettings& settings, bool with_step) {
-  Description out;
+Inspection Model::inspect(const Choices& choices, bool with_step) const {
+  const model::Model& model = impl_->model;
+  const cycle::RunOptions options = run::options_of(choices, 1);
+  Inspection out;
   out.part_mass.assign(model.parts.size(), 0.0);
   FirstCycle first(out.part_mass);
   {
@@ -49,13 +45,19 @@ Description describe_model(const model::Model& model, const RunSettings& setting
     bare.interfaces.clear();
     bare.sections.clear();
     bare.th_requests.clear();
-    cycle::Cycle(bare, settings).advance(first);
+    cycle::Cycle(bare, options).advance(first);
   }
   out.contact = init::inspect_contacts(model, {first.x, first.v, first.mass, first.step});
-  const auto is_error = [](const init::ContactFinding& c) { return c.finding.severity == contact::Severity::error; };
+  const auto is_error = [](const ContactFinding& c) { return c.finding.severity == contact::Severity::error; };
   // Interfaces with errors may refuse to be built.
-  if (with_step && std::none_of(out.contact.begin(), out.contact.end(), is_error)) out.step = cycle::describe_first_step(model, settings);
+  if (with_step && std::none_of(out.contact.begin(), out.contact.end(), is_error)) {
+    const cycle::FirstStep step = cycle::first_step(model, options);
+    out.first_step = step.step;
+    out.controller = step.controller;
+  }
   return out;
 }
 
-}  // namespace abut::app
+Diagnostic to_diagnostic(const ContactFinding& finding) { return init::to_diagnostic(finding); }
+
+}  // namespace abut

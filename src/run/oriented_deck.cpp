@@ -1,4 +1,4 @@
-#include "oriented_deck.hpp"
+#include "run/oriented_deck.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/diagnostic.hpp"
 
-namespace abut::app {
+namespace abut::run {
 
 namespace {
 
@@ -87,4 +87,4 @@ void write_oriented_deck(const std::filesystem::path& starter, const std::filesy
   if (!out) throw RunError("cannot write " + target.string());
 }
 
-}  // namespace abut::app
+}  // namespace abut::run

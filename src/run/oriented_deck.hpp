@@ -7,7 +7,7 @@
 #include "init/contact_inspection.hpp"
 #include "model/model.hpp"
 
-namespace abut::app {
+namespace abut::run {
 
 /// A copy of `starter` in which each interface of `turned` names new /SURF/SEG surfaces that hold its segments as the model has
 /// them now (Irs/Irm 2: left as they are). Everything else is kept byte for byte.
@@ -15,4 +15,4 @@ namespace abut::app {
 void write_oriented_deck(const std::filesystem::path& starter, const std::filesystem::path& target, const model::Model& model,
                          const std::vector<init::TurnedSurface>& turned);
 
-}  // namespace abut::app
+}  // namespace abut::run

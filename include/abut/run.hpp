@@ -1,0 +1,132 @@
+// A run: a model that moves. Cycle by cycle, to a time or to its end; state can be read, and velocities changed, in between.
+//
+//   abut::Model model = abut::Model::read("plate_drop_0000.rad");
+//   abut::Run run(model, {.output = "plate_drop"});
+//   run.advance_to_end([](abut::Run& r) { return r.balance().err < 0.05; });   // false stops after this cycle
+//
+// Leap-frog: after a cycle, positions and displacements are those of time(); velocities those of time() - step() / 2; forces,
+// energies, interface results and element values those of the start of the last cycle, force_time().
+// Results do not depend on the number of threads. A Run is used by one thread at a time; different Runs are independent.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "abut/contact/options.hpp"
+#include "abut/diagnostic.hpp"
+#include "abut/model.hpp"
+#include "abut/results.hpp"
+#include "abut/types.hpp"
+#include "abut/vec3.hpp"
+
+namespace abut {
+
+struct RunSettings {
+  int threads = 0;                               ///< 0: all that the machine has
+  Choices choices;                               ///< rule set and contact law
+  std::filesystem::path output;                  ///< run folder (docs/guide/outputs.md); empty: no files are written
+  int hash_every = 0;                            ///< cycles between state hashes in run.json, 0: none
+  bool record_history = true;                    ///< keep the time history in memory: history()
+  bool progress = false;                         ///< a line about the progress on standard error
+  bool allow_findings = false;                   ///< run although the contact inspection found errors
+  const std::atomic<bool>* interrupt = nullptr;  ///< when it becomes true the run ends after its cycle, with complete files
+};
+
+/// Time history in memory: the columns of NAME_th.csv.
+struct History {
+  std::vector<std::string> names;  ///< #columns, the first is "time"
+  std::vector<double> values;      ///< #rows by #columns, row-major
+  [[nodiscard]] std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
+};
+
+/// What the watch over the contacts found while the run went on.
+struct RunFinding {
+  Diagnostic diagnostic;
+  Id interface_id = 0;
+  double time = 0.0;
+  std::int64_t cycle = 0;
+  double measure = 0.0;
+};
+
+class Run {
+ public:
+  /// Called after each cycle; false stops the run there (it can be continued).
+  using Callback = std::function<bool(Run&)>;
+
+  /// Inspects the contacts, makes the first state, opens the files.
+  /// @throws InputError when the inspection finds errors (unless they are allowed), RunError when a file cannot be written
+  explicit Run(const Model& model, const RunSettings& settings = {});
+  ~Run();  ///< ends the run if finish() was not called; never throws
+  Run(Run&&) noexcept;
+  Run& operator=(Run&&) noexcept;
+
+  // ---- going on ----
+  /// One cycle. When the final time is passed the run is finished and its files are complete.
+  /// @return false when there was nothing left to do
+  /// @throws RunError when the run fails (not finite, an error limit, a full disk); its files are complete then too
+  bool advance();
+  /// Cycles until time() > `time`, the end, an interrupt, or a callback that says false.
+  /// @return false when the run is over
+  bool advance_to(double time, const Callback& after_each = {});
+  bool advance_to_end(const Callback& after_each = {});
+  /// Ends the run where it is: summary, manifest, files closed. Nothing when it is over.
+  const Outcome& finish(Outcome::Kind kind = Outcome::Kind::stopped, std::string_view message = "stopped by the caller");
+  [[nodiscard]] bool is_over() const;
+  [[nodiscard]] const Outcome& outcome() const;  ///< valid when is_over()
+
+  // ---- where it is ----
+  [[nodiscard]] const Model& model() const;
+  [[nodiscard]] double time() const;                       ///< t of positions()
+  [[nodiscard]] std::int64_t cycle() const;                ///< cycles done
+  [[nodiscard]] double step() const;                       ///< the last one; 0 before the first cycle
+  [[nodiscard]] double force_time() const;                 ///< t of forces and energies
+  [[nodiscard]] const StepController& controller() const;  ///< who gave step()
+  [[nodiscard]] std::uint64_t hash() const;                ///< over every bit of the state that influences the future
+
+  // ---- nodes: #N (by 3), order of Model::node_ids() ----
+  [[nodiscard]] std::span<const Vec3> positions() const;
+  [[nodiscard]] std::span<const Vec3> displacements() const;
+  [[nodiscard]] std::span<const Vec3> velocities() const;
+  [[nodiscard]] std::span<const Vec3> angular_velocities() const;
+  [[nodiscard]] std::span<const Vec3> accelerations() const;
+  [[nodiscard]] std::span<const Vec3> contact_forces() const;  ///< sum of all interfaces
+  [[nodiscard]] std::span<const double> masses() const;
+  /// The velocities, to be changed before the next cycle. The energy that a change brings is booked as external work, so the
+  /// balance stays closed. Nodes whose motion is imposed, and secondary nodes of rigid bodies, take no notice.
+  [[nodiscard]] std::span<Vec3> edit_velocities();
+  [[nodiscard]] std::span<Vec3> edit_angular_velocities();
+
+  // ---- results ----
+  [[nodiscard]] const Balance& balance() const;
+  [[nodiscard]] std::span<const InterfaceResult> interfaces() const;  ///< order of Model::interfaces()
+  /// A field of the animation (docs/guide/outputs.md) at every node: #N by components, row-major.
+  /// @throws std::invalid_argument for an unknown name; node_field_names() has all
+  [[nodiscard]] std::vector<double> node_field(std::string_view name) const;
+  /// The same for all elements of one kind, in the order of Model::elements(kind); NaN for deleted elements.
+  [[nodiscard]] std::vector<double> element_field(ElementKind kind, std::string_view name) const;
+  [[nodiscard]] static std::vector<std::string> node_field_names();
+  [[nodiscard]] static std::vector<std::string> element_field_names();
+  [[nodiscard]] const History& history() const;
+  [[nodiscard]] std::span<const Diagnostic> initial_findings() const;      ///< of reading and of the inspection, as text
+  [[nodiscard]] std::span<const ContactFinding> contact_findings() const;  ///< of the inspection before the run
+  [[nodiscard]] std::span<const RunFinding> findings() const;              ///< of the run so far
+  [[nodiscard]] std::vector<PhaseTime> timings() const;
+  [[nodiscard]] const std::filesystem::path& output() const;  ///< run folder; empty: none
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// "abut 0.1.0 (commit), compiler, instruction set".
+[[nodiscard]] std::string version_text();
+
+}  // namespace abut

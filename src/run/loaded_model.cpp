@@ -1,0 +1,179 @@
+#include "run/loaded_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "init/contact_inspection.hpp"
+#include "init/contact_setup.hpp"
+#include "model/build.hpp"
+#include "output/summary.hpp"
+#include "run/oriented_deck.hpp"
+
+namespace abut {
+namespace {
+
+/// FNV-1a over bytes.
+class Fingerprint {
+ public:
+  void add(std::string_view text) {
+    for (const char c : text) byte(static_cast<unsigned char>(c));
+    byte(0);
+  }
+  void byte(unsigned char b) { hash_ = (hash_ ^ b) * 0x100000001b3ULL; }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+template <std::size_t N>
+ElementTable table_of(ElementKind kind, const model::Elements<N>& e) {
+  return {kind, static_cast<int>(N), e.id, e.part, {e.nodes.empty() ? nullptr : e.nodes.front().data(), e.nodes.size() * N}};
+}
+
+void describe_parts(Model::Impl& m) {
+  const model::Model& model = m.model;
+  for (const model::Part& p : model.parts) {
+    PartInfo info{p.id, p.title, 0, 0};
+    if (p.property != no_index) info.property_id = model.properties[static_cast<std::size_t>(p.property)].id;
+    if (p.material != no_index) info.material_id = model.materials[static_cast<std::size_t>(p.material)].id;
+    m.parts.push_back(std::move(info));
+  }
+  for (const model::Surface& s : model.surfaces) {
+    SurfaceInfo info{s.id, s.title, {}};
+    for (const model::Segment& segment : s.segments) info.facets.push_back(segment.nodes);
+    m.surfaces.push_back(std::move(info));
+  }
+  for (const model::Interface& i : model.interfaces) {
+    InterfaceInfo info;
+    info.id = i.id;
+    info.title = i.title;
+    info.type = std::string(output::interface_type(i));
+    info.stiffness_scale = i.stfac;
+    info.friction = i.friction;
+    info.gap = i.gap;
+    if (const auto* t3 = std::get_if<model::InterfaceType3>(&i.type)) info.surface = {t3->surface_1, t3->surface_2};
+    if (const auto* t5 = std::get_if<model::InterfaceType5>(&i.type)) {
+      info.surface[1] = t5->surface;
+      info.nodes = t5->nodes;
+    }
+    if (const auto* t7 = std::get_if<model::InterfaceType7>(&i.type)) {
+      info.surface[1] = t7->surface;
+      info.nodes = t7->nodes;
+    }
+    m.interfaces.push_back(std::move(info));
+  }
+}
+
+std::shared_ptr<const Model::Impl> load(const deck::DeckPair& pair, const std::filesystem::path& path, const ReadOptions& options,
+                                        Diagnostics& findings) {
+  const auto start = std::chrono::steady_clock::now();
+  auto m = std::make_shared<Model::Impl>();
+  m->path = path;
+  m->options = options;
+  m->last_run = 1 + static_cast<int>(pair.restarts.size());
+  m->files = pair.starter.files;
+  const auto add_files = [&m](const deck::Deck& deck) { m->files.insert(m->files.end(), deck.files.begin(), deck.files.end()); };
+  add_files(pair.engine);
+  if (options.run < 1 || options.run > m->last_run) {
+    findings.error("model.no_engine", {path.string(), 0, {}, {}, 0, 0}, fmt::format("there is no Engine deck of run {}", options.run));
+  }
+  if (!findings.has_errors()) {
+    for (int n = 2; n <= options.run; ++n) add_files(pair.restarts[static_cast<std::size_t>(n) - 2]);
+    m->model = model::build(pair, findings, options.run);
+  } else {
+    (void)model::build(pair, findings, 1);  // all faults of a deck in one go
+  }
+  if (findings.has_errors()) throw InputError(std::move(findings));
+  init::settle_initial_penetrations(m->model, findings);
+  if (findings.has_errors()) throw InputError(std::move(findings));
+  if (options.orient) {
+    const std::vector<init::TurnedSurface> turned = init::orient_contacts(m->model);
+    for (const init::TurnedSurface& t : turned) findings.add(init::to_diagnostic(m->model, t));
+    if (!options.write_deck.empty()) run::write_oriented_deck(path, options.write_deck, m->model, turned);
+  }
+  m->findings = findings.all();
+  Fingerprint fingerprint;
+  for (const std::string& text : pair.starter.texts) fingerprint.add(text);
+  fingerprint.byte(options.orient ? 1 : 0);
+  m->fingerprint = fingerprint.value();
+  describe_parts(*m);
+  m->read_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return m;
+}
+
+}  // namespace
+
+Model Model::read(const std::filesystem::path& starter, const ReadOptions& options) {
+  Diagnostics findings;
+  const deck::DeckPair pair = deck::read(starter, findings);
+  return Model(load(pair, starter, options, findings));
+}
+
+Model Model::from_text(const DeckText& text, const ReadOptions& options) {
+  if (!options.write_deck.empty()) throw RunError("write_deck needs a deck that was read from a file");
+  Diagnostics findings;
+  deck::DeckPair pair;
+  pair.starter = deck::read_starter_text(text.starter, text.name + "_0000.rad", findings);
+  int number = 0;
+  for (const std::string& engine : text.engines) {
+    deck::Deck deck = deck::read_engine_text(engine, fmt::format("{}_{:04}.rad", text.name, ++number), findings);
+    if (number == 1) {
+      pair.engine = std::move(deck);
+      pair.has_engine = true;
+    } else {
+      pair.restarts.push_back(std::move(deck));
+    }
+  }
+  return Model(load(pair, {}, options, findings));
+}
+
+const std::string& Model::name() const { return impl_->model.name; }
+const std::string& Model::title() const { return impl_->model.title; }
+const Units& Model::units() const { return impl_->model.units; }
+double Model::end_time() const { return impl_->model.controls.t_end; }
+int Model::run_number() const { return impl_->model.controls.run_number; }
+int Model::last_run_number() const { return impl_->last_run; }
+const std::filesystem::path& Model::path() const { return impl_->path; }
+std::span<const std::string> Model::files() const { return impl_->files; }
+std::span<const Diagnostic> Model::findings() const { return impl_->findings; }
+std::uint64_t Model::fingerprint() const { return impl_->fingerprint; }
+std::span<const Id> Model::node_ids() const { return impl_->model.node_id; }
+std::span<const Vec3> Model::coordinates() const { return impl_->model.node_x; }
+std::span<const PartInfo> Model::parts() const { return impl_->parts; }
+std::span<const SurfaceInfo> Model::surfaces() const { return impl_->surfaces; }
+std::span<const InterfaceInfo> Model::interfaces() const { return impl_->interfaces; }
+std::size_t Model::element_count() const { return static_cast<std::size_t>(output::element_count(impl_->model)); }
+
+ElementTable Model::elements(ElementKind kind) const {
+  switch (kind) {
+    case ElementKind::shell4:
+      return table_of(kind, impl_->model.shells);
+    case ElementKind::shell3:
+      return table_of(kind, impl_->model.sh3ns);
+    case ElementKind::brick:
+      return table_of(kind, impl_->model.bricks);
+    case ElementKind::tetra:
+      return table_of(kind, impl_->model.tetras);
+    case ElementKind::none:
+      break;
+  }
+  return {};
+}
+
+Profile run::profile_of(Rules rules) { return rules == Rules::reference ? Profile::reference() : Profile::standard(); }
+
+cycle::RunOptions run::options_of(const Choices& choices, int threads) {
+  cycle::RunOptions options;
+  options.threads = threads;
+  options.profile = profile_of(choices.rules);
+  options.interface_law = choices.interface_law;
+  return options;
+}
+
+}  // namespace abut

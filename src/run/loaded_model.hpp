@@ -1,0 +1,37 @@
+// What is behind abut::Model: the model as the mechanics take it, and the facts that the public interface shows.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "abut/model.hpp"
+#include "core/profile.hpp"
+#include "cycle/run.hpp"
+#include "deck/deck.hpp"
+#include "model/model.hpp"
+
+namespace abut {
+
+struct Model::Impl {
+  model::Model model;
+  std::filesystem::path path;
+  std::vector<std::string> files;
+  std::vector<Diagnostic> findings;
+  ReadOptions options;
+  int last_run = 1;
+  std::uint64_t fingerprint = 0;
+  std::vector<PartInfo> parts;
+  std::vector<SurfaceInfo> surfaces;
+  std::vector<InterfaceInfo> interfaces;
+  double read_seconds = 0.0;
+};
+
+namespace run {
+
+[[nodiscard]] Profile profile_of(Rules rules);
+/// Options of the mechanics for these choices.
+[[nodiscard]] cycle::RunOptions options_of(const Choices& choices, int threads);
+
+}  // namespace run
+}  // namespace abut

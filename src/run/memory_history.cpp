@@ -1,0 +1,17 @@
+#include "run/memory_history.hpp"
+
+namespace abut::run {
+
+void MemoryHistory::begin(const cycle::Snapshot& first) {
+  columns_ = output::make_history_columns(*first.model, output::ElementLookup(*first.model, first.groups)).columns;
+  history_.names = {"time"};
+  for (const output::HistoryColumn& column : columns_) history_.names.push_back(column.name);
+}
+
+void MemoryHistory::cycle(const cycle::Snapshot& now) {
+  if (!now.history_due) return;
+  history_.values.push_back(now.state->times.t);
+  for (const output::HistoryColumn& column : columns_) history_.values.push_back(column.value(now));
+}
+
+}  // namespace abut::run

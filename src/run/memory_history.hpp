@@ -1,0 +1,25 @@
+// The time history of a run in memory.
+#pragma once
+
+#include <vector>
+
+#include "abut/run.hpp"
+#include "cycle/sink.hpp"
+#include "output/history_columns.hpp"
+
+namespace abut::run {
+
+/// Appends a row to the host's History whenever `history_due`: the columns of NAME_th.csv.
+class MemoryHistory final : public cycle::Sink {
+ public:
+  explicit MemoryHistory(History& history) : history_(history) {}
+  void begin(const cycle::Snapshot& first) override;
+  void cycle(const cycle::Snapshot& now) override;
+  void end(const cycle::Outcome&) override {}
+
+ private:
+  History& history_;
+  std::vector<output::HistoryColumn> columns_;
+};
+
+}  // namespace abut::run

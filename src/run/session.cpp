@@ -1,0 +1,141 @@
+#include "run/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "output/progress.hpp"
+#include "output/run_outputs.hpp"
+#include "run/memory_history.hpp"
+#include "simd/isa.hpp"
+
+#ifndef ABUT_VERSION
+#define ABUT_VERSION "unknown"
+#endif
+#ifndef ABUT_COMMIT
+#define ABUT_COMMIT ""
+#endif
+
+namespace abut {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string compiler_name() {
+#if defined(__clang__)
+  return fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  return fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+}
+
+std::string name_of(const std::optional<contact::Law>& law) {
+  if (!law) return {};
+  return *law == contact::Law::constant ? "constant" : "stiffening";
+}
+
+}  // namespace
+
+output::RunInfo run::program_info() {
+  output::RunInfo info;
+  info.version = ABUT_VERSION;
+  info.commit = ABUT_COMMIT;
+  info.compiler = compiler_name();
+  info.instruction_set = std::string(simd::name(simd::active_isa()));
+  return info;
+}
+
+Run::Impl::Impl(const Model& model_, const RunSettings& settings_) : model(model_), settings(settings_) {
+  if (settings.threads <= 0) settings.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  before.push_back({"read", model.impl().read_seconds});
+  auto phase = Clock::now();
+  inspection = model.inspect(settings.choices);
+  before.push_back({"inspect", seconds_since(phase)});
+
+  Diagnostics findings;
+  for (const Diagnostic& d : model.findings()) findings.add(d);
+  for (const ContactFinding& c : inspection.contact) findings.add(to_diagnostic(c));
+  if (findings.has_errors() && !settings.allow_findings) throw InputError(std::move(findings));
+
+  info = run::program_info();
+  info.threads = settings.threads;
+  info.profile = settings.choices.rules == Rules::reference ? "reference" : "standard";
+  info.interface_law = name_of(settings.choices.interface_law);
+  info.hash_every = settings.hash_every;
+  info.decks.assign(model.files().begin(), model.files().end());
+  info.findings = findings.all();
+  info.contact = inspection.contact;
+
+  open_outputs();
+  phase = Clock::now();
+  cycle::RunOptions options = run::options_of(settings.choices, settings.threads);
+  options.hash_every = settings.hash_every;
+  cycle = std::make_unique<cycle::Cycle>(model.impl().model, options);
+  before.push_back({"init", seconds_since(phase)});
+  start = Clock::now();
+}
+
+void Run::Impl::open_outputs() {
+  if (settings.output.empty()) {
+    output::add_contact_watch(sinks, info);
+  } else {
+    output::add_run_outputs(sinks, {settings.output, model.name()}, info, [this] { return timings(); });
+  }
+  if (settings.record_history) sinks.add(std::make_unique<run::MemoryHistory>(history));
+  if (settings.progress) sinks.add(std::make_unique<output::Progress>(output::console_progress()));
+}
+
+std::vector<PhaseTime> Run::Impl::timings() const {
+  std::vector<PhaseTime> all = before;
+  for (PhaseTime& phase : cycle->phases()) all.push_back(std::move(phase));
+  all.push_back({"run", seconds_since(start)});
+  return all;
+}
+
+bool Run::Impl::advance() {
+  if (over) return false;
+  if (cycle->finished()) {
+    finish(Outcome::Kind::finished, "the final time is reached");
+    return false;
+  }
+  if (settings.interrupt != nullptr && settings.interrupt->load(std::memory_order_relaxed)) {
+    finish(Outcome::Kind::interrupted, "interrupted by the user");
+    return false;
+  }
+  try {
+    cycle->advance(sinks);
+  } catch (const RunError& error) {
+    finish(Outcome::Kind::failed, error.what());
+    throw;
+  }
+  if (cycle->finished()) finish(Outcome::Kind::finished, "the final time is reached");
+  return true;
+}
+
+const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
+  if (over) return outcome;
+  over = true;
+  outcome = {kind, std::string(message), cycle->state().times.cycle, cycle->state().times.t};
+  try {
+    sinks.end(outcome);
+  } catch (const RunError& error) {
+    if (kind == Outcome::Kind::failed) return outcome;  // the first failure is the one that counts
+    outcome.kind = Outcome::Kind::failed;
+    outcome.message = error.what();
+    throw;
+  }
+  return outcome;
+}
+
+std::string version_text() {
+  const output::RunInfo info = run::program_info();
+  return fmt::format("abut {}{}, {}, {}", info.version, info.commit.empty() ? "" : " (" + info.commit + ")", info.compiler,
+                     info.instruction_set);
+}
+
+}  // namespace abut
