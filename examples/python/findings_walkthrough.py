@@ -57,10 +57,10 @@ except abut.InputError as error:
 turned = abut.Model.read(decks / "normals_away" / "normals_away_0000.rad", orient=True)
 for note in turned.findings:
     print(note)
+print([finding.severity for finding in turned.inspect().contact])
 run = abut.Run(turned)
 run.advance_to_end()
 print(run.outcome)
-print(f"energy error {run.balance.err:.1e}; impulse on the second surface {run.interfaces[0].normal_impulse.round(6)}")
 
 # %% [markdown]
 # ## All of them in a table

@@ -35,7 +35,7 @@ def test_numbers_keep_their_digits():
 
 
 def test_gravity_and_loads_accelerate():
-    """v(n - 1/2) = a (t - h/2): central differences are exact for a constant acceleration."""
+    """v(n - 1/2) = a (t - h/2) of the centre of mass: central differences are exact for a constant acceleration."""
     b = builder()
     ids = one_cube(b)
     always = b.function([0.0, 1.0], [1.0, 1.0])
@@ -45,7 +45,7 @@ def test_gravity_and_loads_accelerate():
     run = abut.Run(b.build())
     run.advance(50)
     mid = run.time - 0.5 * run.step
-    np.testing.assert_allclose(run.velocities, np.tile([8e-9 / MASS * mid, 0.0, -9.81e-3 * mid], (8, 1)), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(run.velocities.mean(axis=0), [8e-9 / MASS * mid, 0.0, -9.81e-3 * mid], rtol=1e-9, atol=1e-15)
 
 
 def test_pressure_is_force_over_area():
@@ -55,9 +55,9 @@ def test_pressure_is_force_over_area():
     b.engine(0.01)
     run = abut.Run(b.build())
     run.advance(100)
-    # GLOBAL momentum at the half step before the last forces: p A t; +z is the face's positive side, the pressure pushes against it.
-    np.testing.assert_allclose(abs(run.balance.momentum[2]), 1e-6 * run.force_time, rtol=0.02)
-    assert run.balance.momentum[2] < 0
+    # p A t at the half step, along the facet's normal (+z); the face deforms a little.
+    momentum = (run.masses[:, None] * run.velocities).sum(axis=0)
+    np.testing.assert_allclose(momentum, [0.0, 0.0, 1e-6 * (run.time - 0.5 * run.step)], rtol=1e-4, atol=1e-12)
 
 
 def test_imposed_motion_and_fixed_axes():
@@ -95,7 +95,7 @@ def test_a_rigid_body_keeps_its_shape_and_a_wall_stops_it():
     run = abut.Run(b.build())
     run.advance_to_end()
     assert run.positions[:, 2].min() > -1e-9
-    assert len(run.history.find("RWALL/1/*")) == 6 and len(run.history.find("NODE/1/D?")) == 3
+    assert len(run.history.find("RWALL/1/FN?")) == 3 and len(run.history.find("NODE/1/D?")) == 3
 
 
 def shells(b, height, facing_down=False):
@@ -107,7 +107,7 @@ def shells(b, height, facing_down=False):
 
 @pytest.mark.parametrize("kind", ["TYPE3", "TYPE5", "TYPE7"])
 def test_interfaces_repel(kind):
-    """A plate flies at a fixed one and comes back: momentum is reversed, and the balance closes."""
+    """A plate flies at a fixed one and comes back; without damping the balance closes but for what the interface says it made."""
     b = builder()
     low, low_quads = shells(b, 0.0)
     high, high_quads = shells(b, 0.12, facing_down=True)
@@ -133,7 +133,10 @@ def test_interfaces_repel(kind):
     run.advance_to_end(lambda r: touched.append(r.interfaces[0].in_contact))
     assert max(touched) >= 9 and touched[-1] == 0
     assert run.velocities[9:, 2].mean() > 0.5
-    assert abs(run.balance.err) < 0.01
+    if kind == "TYPE7":
+        assert run.balance.dw > 0
+    else:
+        assert abs(run.balance.err - run.balance.cx / run.balance.largest) < 1e-3 and abs(run.balance.err) < 0.02
 
 
 def test_plastic_shells_and_triangles_and_tetrahedra():

@@ -102,11 +102,12 @@ def test_changed_velocities_are_booked_as_external_work():
         e.velocities[:, 0] += 2.0
         e.velocities[3:5] += (0.0, 0.5, 0.0)
     assert run.velocities[3, 1] == 0.5 and run.cycle == 5
+    start = run.time
     energy = 0.5 * (run.masses * (run.velocities**2).sum(axis=1)).sum()
     run.advance(2)
     assert run.balance.extw == pytest.approx(energy, rel=1e-12)
-    assert abs(run.balance.err) < 1e-3 and abs(run.balance.ledger) < 1e-12
-    assert run.displacements[:, 0].mean() == pytest.approx(2.0 * (run.time - 5 * run.step), rel=1e-3)
+    assert abs(run.balance.ledger) < 1e-12
+    assert run.displacements[:, 0].mean() == pytest.approx(2.0 * (run.time - start), rel=1e-12)
 
     run.velocities = np.zeros((8, 3))
     run.advance(1)

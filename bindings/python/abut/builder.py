@@ -188,7 +188,7 @@ class ModelBuilder:
                             reals(1, cards.finite(scale, "scale")))
 
     def pressure(self, surface: int, function: int, *, scale: float = 1.0, id: int | None = None, title: str = "pressure") -> int:
-        """Pressure scale * function(time) against the positive side of a surface. Returns its id."""
+        """Pressure scale * function(time) along the normals of a surface (right-hand rule over its facets). Returns its id."""
         return self._titled("PLOAD", "PLOAD", id, title, integers(surface, function, 0, 0, "", 0) + reals(1, cards.finite(scale, "scale")))
 
     def gravity(self, direction: str, function: int, *, scale: float = 1.0, nodes: ArrayLike | None = None, id: int | None = None,
