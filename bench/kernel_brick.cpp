@@ -66,7 +66,7 @@ double measure(Scene& s, const Profile& profile, simd::Isa isa, int repetitions)
   const auto group = elements::make_brick8(in);
   dynamic_cast<elements::SolidGroup&>(*group).use_kernel(elements::brick8_kernel(isa));
   parallel::ThreadPool pool(1);
-  std::vector<double> slots(group->layout().size());
+  std::vector<double> sums(group->chunks().sum_count());
   elements::StepInput step;
   step.x = s.x.data();
   step.v = s.v.data();
@@ -74,7 +74,7 @@ double measure(Scene& s, const Profile& profile, simd::Isa isa, int repetitions)
   for (int r = 0; r < repetitions; ++r) {
     step.dt = r == 0 ? 0.0 : 1e-3;
     const auto begin = std::chrono::steady_clock::now();
-    group->step(step, slots, pool);
+    group->step(step, {sums.data(), nullptr}, pool);
     const std::chrono::duration<double, std::nano> t = std::chrono::steady_clock::now() - begin;
     best = std::min(best, t.count() / group->size());
   }

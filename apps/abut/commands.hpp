@@ -15,12 +15,22 @@ struct RunArguments {
   int threads = 0;               ///< 0: all that the machine has
   std::string profile = "standard";
   std::string interface_law;  ///< empty: the profile's
+  int checkpoint_every = 0;   ///< 0: as /RFILE says
   int hash_every = 0;
   bool timing = false;
   bool quiet = false;
   bool orient = false;               ///< --orient auto
   bool allow_findings = false;       ///< run although the contact inspection found errors
   std::filesystem::path write_deck;  ///< empty: not asked for
+};
+
+struct ResumeArguments {
+  std::filesystem::path folder;
+  std::filesystem::path deck;  ///< empty: where it was
+  int threads = 0;
+  int checkpoint_every = -1;  ///< -1: as before
+  bool timing = false;
+  bool quiet = false;
 };
 
 struct CheckArguments {
@@ -31,8 +41,17 @@ struct CheckArguments {
   std::filesystem::path write_deck;
 };
 
+struct ReportArguments {
+  std::filesystem::path run;     ///< run folder
+  std::filesystem::path output;  ///< empty: RUN/report.html
+  bool all_fields = false;
+  bool quiet = false;
+};
+
 [[nodiscard]] int run_command(const RunArguments& arguments);
+[[nodiscard]] int resume_command(const ResumeArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
+[[nodiscard]] int report_command(const ReportArguments& arguments);
 
 /// @pre profile is "standard" or "reference", law is "", "stiffening" or "constant"
 [[nodiscard]] inline Choices choices_of(std::string_view profile, std::string_view law) {

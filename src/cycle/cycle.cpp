@@ -69,8 +69,8 @@ void Cycle::advance(Sink& sink) {
 void Cycle::decide_outputs() {
   const double t = state_.times.t;
   const model::Controls& c = model_.controls;
-  history_due_ = t >= next_history_;
-  if (history_due_) next_history_ = std::min(c.t_end, std::max(t, next_history_ + c.history_interval));
+  history_due_ = t >= std::min(c.t_end, next_history_);
+  if (t >= next_history_) next_history_ = std::max(t, next_history_ + c.history_interval);
   animation_due_ = t >= next_animation_;
   if (animation_due_) next_animation_ = std::max(t, next_animation_ + c.animation_interval);
   listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
@@ -79,10 +79,11 @@ void Cycle::decide_outputs() {
 void Cycle::internal_forces(StepLimits& limits) {
   const Timer timer(*this, p_elements);
   const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus};
+  const elements::StepOutput out{sums_.data(), slots_.empty() ? nullptr : slots_.data()};
   for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
   removed_energy_ = 0.0;
   for (const std::unique_ptr<elements::Group>& g : groups_) {
-    const elements::GroupResult r = g->step(in, slots_, pool_);
+    const elements::GroupResult r = g->step(in, out, pool_);
     if (r.bad_element != no_index) {
       throw RunError("element " + std::to_string(element_id(*g, r.bad_element)) + " of part " +
                      std::to_string(model_.parts[static_cast<std::size_t>(g->part())].id) +
@@ -145,10 +146,10 @@ void Cycle::contact_forces(StepLimits& limits) {
 
 void Cycle::assemble() {
   const Timer timer(*this, p_assembly);
-  const double* slots = slots_.data();
-  pool_.for_ranges(state_.mass.size(), node_grain, [this, slots](std::size_t begin, std::size_t end) {
+  const double* sums = sums_.data();
+  pool_.for_ranges(state_.mass.size(), node_grain, [this, sums](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const elements::NodalSum n = assembly_.sum(slots, i);
+      const elements::NodalSum n = assembly_.total(sums, i);
       state_.f_internal[i] = n.force;
       state_.f[i] = state_.f_external[i] - n.force + state_.f_contact[i];
       state_.stiffness[i] = n.stiffness + contact_stiffness_[i];

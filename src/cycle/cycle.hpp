@@ -21,6 +21,7 @@
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
 #include "cycle/time_step.hpp"
+#include "elements/assembly.hpp"
 #include "init/contact_setup.hpp"
 #include "init/start.hpp"
 
@@ -52,6 +53,9 @@ class Cycle {
   /// Velocities with what the caller has changed.
   [[nodiscard]] std::span<const Vec3> velocities() const { return edited_v_.empty() ? state_.v : edited_v_; }
   [[nodiscard]] std::span<const Vec3> angular_velocities() const { return edited_w_.empty() ? state_.w : edited_w_; }
+  /// Everything that the next cycles depend on and that their outputs accumulate, between two cycles (cycle/persist.cpp). A cycle
+  /// made from the same model that reads what another one wrote goes on with the same bits.
+  void persist(state::Archive& a);
   /// Hash over every bit of the state that influences the future.
   [[nodiscard]] std::uint64_t hash();
 
@@ -75,6 +79,7 @@ class Cycle {
   [[nodiscard]] Snapshot snapshot() const;
   [[nodiscard]] Snapshot snapshot_of_cycle();
   void fill_contact_fields();
+  void persist_output_times(state::Archive& a);
   [[nodiscard]] double take_over_edits();
   [[nodiscard]] Id element_id(const elements::Group& group, Index element) const;
 
@@ -84,7 +89,8 @@ class Cycle {
   std::vector<std::unique_ptr<elements::Group>> groups_;
   elements::Assembly assembly_;
   state::State state_;
-  std::vector<double> slots_;
+  std::vector<double> sums_;   // of chunks of elements
+  std::vector<double> slots_;  // of elements, when a section asks for them
 
   constraints::Curves curves_;
   constraints::Axes axes_;

@@ -37,6 +37,12 @@ class Ledger {
   /// constraints. @return T* minus its start minus all works so far: zero to rounding
   double close(double kinetic, double constraint_work);
 
+  void persist(state::Archive& a) {
+    a(second_half_);
+    a(works_);
+    a(start_);
+  }
+
  private:
   // Terms of one leaf of nodes. Powers of a force f: f.v with the velocity before the kick, and with the one after it.
   struct Leaf {

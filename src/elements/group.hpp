@@ -1,7 +1,7 @@
 // One group of elements: same family, same part (hence same law and property), in blocks of 8.
 //
-// A step of a group is gather (node arrays -> block), compute (kernel over Pack), scatter (block -> slots). Slots are
-// private to an element, so blocks run in parallel; `Assembly` sums them per node in the order of element ids.
+// A step of a group is gather (node arrays -> block), compute (kernel over Pack), scatter (block -> slots -> sums of its chunk). Slots
+// are private to an element and sums to a chunk, so chunks run in parallel; `Assembly` adds the chunks of a node in their order.
 #pragma once
 
 #include <array>
@@ -15,12 +15,11 @@
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "core/profile.hpp"
+#include "elements/chunks.hpp"
 #include "model/model.hpp"
 #include "parallel/thread_pool.hpp"
 
 namespace abut::elements {
-
-inline constexpr int lanes = 8;  ///< elements in a block, for every instruction set
 
 enum class Family { shell_q4, shell_c0, brick8, tetra4, inert };
 
@@ -31,6 +30,12 @@ struct StepInput {
   const Vec3* w = nullptr;  ///< angular velocities at n - 1/2 (shells)
   double time = 0.0;        ///< t^n
   double dt = 0.0;          ///< h_-, 0 in the first cycle
+};
+
+/// Where a step leaves its forces; either may be null.
+struct StepOutput {
+  double* sums = nullptr;   ///< of all groups, per chunk and node (ChunkTable)
+  double* slots = nullptr;  ///< of all groups, per element (SlotLayout)
 };
 
 /// What a group says after a step.
@@ -70,6 +75,7 @@ struct PartSums {
 ///   offset + ((b * nodes_per_element + k) * components + c) * 8 + l.
 /// Components: solids fx fy fz K; shells fx fy fz K mx my mz Kr. f, m: internal force and moment *of the element on
 /// nothing*, i.e. the vector that is subtracted from the nodal force; K, Kr: nodal stiffness of numerics.md 2.2.
+/// Sums of chunks have the same components.
 struct SlotLayout {
   std::size_t offset = 0;
   int nodes_per_element = 0;
@@ -97,7 +103,7 @@ class Group {
   [[nodiscard]] Index part() const { return part_; }
   /// Number of elements (without the padding of the last block).
   [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
-  /// Group-local element -> index in the model's table of that kind. Sorted by id.
+  /// Group-local element -> index in the model's table of that kind.
   [[nodiscard]] std::span<const Index> elements() const { return elements_; }
   /// Nodes of a group-local element (nodes_per_element of them; degenerate bricks repeat).
   [[nodiscard]] virtual std::span<const Index> nodes(Index element) const = 0;
@@ -105,14 +111,16 @@ class Group {
 
   [[nodiscard]] const SlotLayout& layout() const { return layout_; }
   void set_slot_offset(std::size_t offset) { layout_.offset = offset; }
+  /// Empty for elements without forces.
+  [[nodiscard]] const ChunkTable& chunks() const { return chunks_; }
+  void set_sum_offset(std::size_t offset) { chunks_.set_offset(offset); }
 
-  /// Mass and rotational inertia of each node slot (numerics.md 1.4, 1.5), written to components 0 (mass) and, where the
-  /// family has rotations, 1 (inertia) of the slots. Called once, before the first step.
-  virtual void initial_masses(std::span<double> slots) const = 0;
+  /// Adds the shares of mass and, where the family has rotations, of inertia to the nodes (numerics.md 1.4, 1.5), element by element.
+  virtual void add_masses(std::span<double> mass, std::span<double> inertia) const = 0;
 
-  /// One step: strains over `in.dt`, stresses to t^n, internal forces into the group's slots. Elements that are off or
-  /// rigid write zeros. Deterministic for any number of threads.
-  virtual GroupResult step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) = 0;
+  /// One step: strains over `in.dt`, stresses to t^n, internal forces. Elements that are off or rigid put zeros.
+  /// Deterministic for any number of threads.
+  virtual GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) = 0;
 
   /// Elements wholly inside a rigid body: no force, no step, no part sums (numerics.md 6.2.1).
   virtual void set_rigid(std::span<const std::uint8_t> rigid) = 0;
@@ -136,6 +144,7 @@ class Group {
   Index part_ = no_index;
   std::vector<Index> elements_;
   SlotLayout layout_;
+  ChunkTable chunks_;
 };
 
 inline std::array<double, 6> Group::layer_stress(Index element, ShellLayer) const { return output(element).stress; }
@@ -144,7 +153,7 @@ inline std::array<double, 6> Group::layer_stress(Index element, ShellLayer) cons
 struct GroupInput {
   const model::Model* model = nullptr;
   Index part = no_index;
-  std::vector<Index> elements;  ///< indices into the model's table of that kind, sorted by id
+  std::vector<Index> elements;  ///< indices into the model's table of that kind, in the order that sums follow
   Profile profile;
   double step_scale = 0.9;    ///< s_e of the Engine deck for this family
   double step_minimum = 0.0;  ///< Tmin with `step_action`

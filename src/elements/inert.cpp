@@ -24,17 +24,15 @@ class InertGroup final : public Group {
     const auto n = static_cast<std::size_t>(data_.nodes_per_element);
     return {data_.nodes.data() + static_cast<std::size_t>(element) * n, n};
   }
-  void initial_masses(std::span<double> slots) const override {
-    clear(slots);
-    for (Index e = 0; e < size(); ++e) {
-      for (int k = 0; k < data_.nodes_per_element; ++k) {
-        slots[layout_.at(e, k, 0)] = data_.mass[index(e, k)];
-        if (!data_.inertia.empty()) slots[layout_.at(e, k, 1)] = data_.inertia[index(e, k)];
-      }
+  void add_masses(std::span<double> mass, std::span<double> inertia) const override {
+    for (std::size_t i = 0; i < data_.nodes.size(); ++i) {
+      const auto node = static_cast<std::size_t>(data_.nodes[i]);
+      mass[node] += data_.mass[i];
+      if (!data_.inertia.empty()) inertia[node] += data_.inertia[i];
     }
   }
-  GroupResult step(const StepInput& /*in*/, std::span<double> slots, parallel::ThreadPool& /*pool*/) override {
-    clear(slots);
+  GroupResult step(const StepInput& /*in*/, const StepOutput& out, parallel::ThreadPool& /*pool*/) override {
+    if (out.slots != nullptr) std::fill_n(out.slots + layout_.offset, layout_.size(), 0.0);
     return {};
   }
   void set_rigid(std::span<const std::uint8_t> rigid) override {
@@ -75,9 +73,6 @@ class InertGroup final : public Group {
  private:
   [[nodiscard]] std::size_t index(Index e, int k) const {
     return static_cast<std::size_t>(e) * static_cast<std::size_t>(data_.nodes_per_element) + static_cast<std::size_t>(k);
-  }
-  void clear(std::span<double> slots) const {
-    std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
   }
 
   InertElements data_;

@@ -1,5 +1,7 @@
 #include "init/start.hpp"
 
+#include "init/locality.hpp"
+
 #include <utility>
 
 namespace abut::init {
@@ -13,6 +15,13 @@ std::vector<std::vector<Index>> by_part(const model::Elements<N>& table, std::si
   return lists;
 }
 
+template <std::size_t N>
+Vec3 centre(const model::Model& model, const std::array<Index, N>& nodes) {
+  Vec3 sum;
+  for (const Index n : nodes) sum += model.node_x[static_cast<std::size_t>(n)];
+  return (1.0 / static_cast<double>(N)) * sum;
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& model, const Profile& profile) {
@@ -23,8 +32,9 @@ std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& mo
   auto tetras = by_part(model.tetras, parts);
 
   std::vector<std::unique_ptr<elements::Group>> groups;
-  const auto add = [&](auto make, std::vector<Index>& list, std::size_t part, const model::StepControl& control) {
+  const auto add = [&](auto make, std::vector<Index>& list, std::size_t part, const model::StepControl& control, const auto& table) {
     if (list.empty()) return;
+    order_for_locality(list, [&](Index e) { return centre(model, table.nodes[static_cast<std::size_t>(e)]); });
     elements::GroupInput in;
     in.model = &model;
     in.part = static_cast<Index>(part);
@@ -36,22 +46,19 @@ std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& mo
     groups.push_back(make(in));
   };
   for (std::size_t p = 0; p < parts; ++p) {
-    add(elements::make_shell_q4, shells[p], p, model.controls.shell);
-    add(elements::make_shell_c0, triangles[p], p, model.controls.sh3n);
-    add(elements::make_brick8, bricks[p], p, model.controls.brick);
-    add(elements::make_tetra4, tetras[p], p, model.controls.tetra);
+    add(elements::make_shell_q4, shells[p], p, model.controls.shell, model.shells);
+    add(elements::make_shell_c0, triangles[p], p, model.controls.sh3n, model.sh3ns);
+    add(elements::make_brick8, bricks[p], p, model.controls.brick, model.bricks);
+    add(elements::make_tetra4, tetras[p], p, model.controls.tetra, model.tetras);
   }
   return groups;
 }
 
-state::State make_state(const model::Model& model, std::span<const std::unique_ptr<elements::Group>> groups,
-                        const elements::Assembly& assembly) {
+state::State make_state(const model::Model& model, std::span<const std::unique_ptr<elements::Group>> groups) {
   state::State s = state::State::zeros(model.node_count());
   for (std::size_t i = 0; i < model.node_x.size(); ++i) s.x[i] = model.node_x[i];
 
-  std::vector<double> slots(assembly.slot_count(), 0.0);
-  for (const std::unique_ptr<elements::Group>& g : groups) g->initial_masses(slots);
-  assembly.sum_masses(slots, s.mass, s.inertia);
+  for (const std::unique_ptr<elements::Group>& g : groups) g->add_masses(s.mass, s.inertia);
   for (const model::AddedMass& m : model.added_masses) s.mass[static_cast<std::size_t>(m.node)] += m.mass;
 
   // The last card that names a node wins (deck-format.md D.2).

@@ -6,18 +6,17 @@
 #include <vector>
 
 #include "core/profile.hpp"
-#include "elements/assembly.hpp"
 #include "elements/group.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
 namespace abut::init {
 
-/// One group per part and element kind, in the order of parts, then shells, triangles, bricks, tetrahedra.
+/// One group per part and element kind, in the order of parts, then shells, triangles, bricks, tetrahedra; elements as
+/// init/locality.hpp orders them.
 [[nodiscard]] std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& model, const Profile& profile);
 
 /// Positions, lumped masses (elements, then /ADMAS) and initial velocities of the model.
-[[nodiscard]] state::State make_state(const model::Model& model, std::span<const std::unique_ptr<elements::Group>> groups,
-                                      const elements::Assembly& assembly);
+[[nodiscard]] state::State make_state(const model::Model& model, std::span<const std::unique_ptr<elements::Group>> groups);
 
 }  // namespace abut::init

@@ -34,11 +34,6 @@ std::string compiler_name() {
 #endif
 }
 
-std::string name_of(const std::optional<contact::Law>& law) {
-  if (!law) return {};
-  return *law == contact::Law::constant ? "constant" : "stiffening";
-}
-
 }  // namespace
 
 output::RunInfo run::program_info() {
@@ -50,7 +45,9 @@ output::RunInfo run::program_info() {
   return info;
 }
 
-Run::Impl::Impl(const Model& model_, const RunSettings& settings_) : model(model_), settings(settings_) {
+Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoint* from, bool resume)
+    : model(model_), settings(settings_) {
+  if (settings.checkpoint_every <= 0) settings.checkpoint_every = model.impl().model.controls.restart_every;
   if (settings.threads <= 0) settings.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   before.push_back({"read", model.impl().read_seconds});
   auto phase = Clock::now();
@@ -65,28 +62,34 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_) : model(model
   info = run::program_info();
   info.threads = settings.threads;
   info.profile = settings.choices.rules == Rules::reference ? "reference" : "standard";
-  info.interface_law = name_of(settings.choices.interface_law);
+  info.interface_law = run::law_name(settings.choices);
   info.hash_every = settings.hash_every;
   info.decks.assign(model.files().begin(), model.files().end());
   info.findings = findings.all();
   info.contact = inspection.contact;
 
-  open_outputs();
   phase = Clock::now();
   cycle::RunOptions options = run::options_of(settings.choices, settings.threads);
   options.hash_every = settings.hash_every;
   cycle = std::make_unique<cycle::Cycle>(model.impl().model, options);
+  if (resume) info.resumed = {from->info.cycle, from->info.time, model.run_number()};
+  if (from != nullptr) {
+    // The state before any file: a checkpoint that does not fit leaves the files as they are.
+    cycle->persist(from->archive);
+    if (cycle->hash() != from->info.hash) throw state::ArchiveError("the state in it is not the one that was saved");
+  }
+  open_outputs();
+  if (from != nullptr) restore_outputs(*from, resume);
   before.push_back({"init", seconds_since(phase)});
   start = Clock::now();
 }
 
 void Run::Impl::open_outputs() {
-  if (settings.output.empty()) {
-    output::add_contact_watch(sinks, info);
-  } else {
-    output::add_run_outputs(sinks, {settings.output, model.name()}, info, [this] { return timings(); });
+  watch_ = output::add_contact_watch(sinks, info);
+  if (!settings.output.empty()) {
+    files_ = output::add_run_outputs(sinks, {settings.output, model.name()}, info, [this] { return timings(); });
   }
-  if (settings.record_history) sinks.add(std::make_unique<run::MemoryHistory>(history));
+  if (settings.record_history) memory_ = sinks.add(std::make_unique<run::MemoryHistory>(history));
   if (settings.progress) sinks.add(std::make_unique<output::Progress>(output::console_progress()));
 }
 
@@ -113,12 +116,17 @@ bool Run::Impl::advance() {
     finish(Outcome::Kind::failed, error.what());
     throw;
   }
-  if (cycle->finished()) finish(Outcome::Kind::finished, "the final time is reached");
+  if (cycle->finished()) {
+    finish(Outcome::Kind::finished, "the final time is reached");
+  } else if (settings.checkpoint_every > 0 && cycle->state().times.cycle % settings.checkpoint_every == 0) {
+    keep_checkpoint();
+  }
   return true;
 }
 
 const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
   if (over) return outcome;
+  if (kind != Outcome::Kind::failed) keep_checkpoint();
   over = true;
   outcome = {kind, std::string(message), cycle->state().times.cycle, cycle->state().times.t};
   try {

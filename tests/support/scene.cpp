@@ -1,5 +1,7 @@
 #include "support/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace abut::scenes {
@@ -127,6 +129,34 @@ std::vector<Index> Scene::shells(Index part, int nu, int nv, const std::function
   return nodes;
 }
 
+void Scene::brick(Index part, const std::array<Index, 8>& nodes) {
+  model.bricks.id.push_back(static_cast<Id>(model.bricks.id.size()) + 1);
+  model.bricks.part.push_back(part);
+  model.bricks.nodes.push_back(nodes);
+}
+
+Index Scene::surface(const std::vector<std::array<Index, 4>>& faces) {
+  std::vector<std::vector<Index>> bricks_of(model.node_id.size());
+  for (Index e = 0; e < model.bricks.size(); ++e) {
+    for (const Index n : model.bricks.nodes[static_cast<std::size_t>(e)]) bricks_of[static_cast<std::size_t>(n)].push_back(e);
+  }
+  model::Surface s;
+  s.id = static_cast<Id>(model.surfaces.size()) + 1;
+  for (const auto& face : faces) {
+    model::Segment segment;
+    segment.nodes = face;
+    for (const Index e : bricks_of[static_cast<std::size_t>(face[0])]) {
+      const auto& nodes = model.bricks.nodes[static_cast<std::size_t>(e)];
+      const bool owner =
+          std::all_of(face.begin(), face.end(), [&nodes](Index n) { return std::find(nodes.begin(), nodes.end(), n) != nodes.end(); });
+      if (owner) segment.element = {ElementKind::brick, e};
+    }
+    s.segments.push_back(segment);
+  }
+  model.surfaces.push_back(std::move(s));
+  return static_cast<Index>(model.surfaces.size()) - 1;
+}
+
 Index Scene::surface(const Block& b, int axis, bool high) {
   model::Surface s;
   s.id = static_cast<Id>(model.surfaces.size()) + 1;
@@ -212,6 +242,36 @@ void Scene::traction(const Block& b, int axis, bool high, int direction, double 
     const double share = facet / static_cast<double>(1U << borders);
     if (!shared[borders].empty()) load(shared[borders], direction, share * static_cast<double>(shared[borders].size()), function);
   }
+}
+
+void Scene::displacement(const std::vector<Index>& nodes, int direction, double value, Index function, Index skew) {
+  model::ImposedMotion m;
+  m.id = static_cast<Id>(model.imposed_motions.size()) + 1;
+  m.kind = model::ImposedMotion::Kind::displacement;
+  m.function = function;
+  m.direction = direction;
+  m.skew = skew;
+  m.scale_y = value;
+  m.nodes = nodes;
+  model.imposed_motions.push_back(std::move(m));
+}
+
+Index Scene::skew_about_z(double angle) {
+  const Id id = static_cast<Id>(model.skews.size()) + 1;
+  model::Skew skew;
+  skew.id = id;
+  skew.axes = {Vec3{std::cos(angle), std::sin(angle), 0.0}, Vec3{-std::sin(angle), std::cos(angle), 0.0}, Vec3{0, 0, 1}};
+  model.skews.push_back(skew);
+  return static_cast<Index>(id) - 1;
+}
+
+void Scene::pressure(const std::vector<std::array<Index, 4>>& faces, double value, Index function) {
+  model::PressureLoad load;
+  load.id = static_cast<Id>(model.pressure_loads.size()) + 1;
+  load.function = function;
+  load.scale_y = -value;
+  load.segments = faces;
+  model.pressure_loads.push_back(std::move(load));
 }
 
 void Scene::gravity(int direction, double value) {

@@ -39,6 +39,11 @@ class Scene {
   /// Shells over (u, v) in [0,1]^2, normal along du x dv unless flipped. @return (nu+1)(nv+1) node indices, u fastest
   std::vector<Index> shells(Index part, int nu, int nv, const std::function<Vec3(double, double)>& shape, bool flip = false);
 
+  Index node(const Vec3& x) { return add_node(x); }
+  void brick(Index part, const std::array<Index, 8>& nodes);
+
+  /// Faces of bricks of this scene as a surface; each gets its brick (faces of the hull have one).
+  Index surface(const std::vector<std::array<Index, 4>>& faces);
   /// Outward faces of a block on one side: axis 0..2, low or high end.
   Index surface(const Block& block, int axis, bool high);
   /// All shells of a part, their own orientation.
@@ -51,6 +56,12 @@ class Scene {
   /// Uniform traction on one side of a regular block: a total force shared by tributary area. Axis, high: as surface().
   void traction(const Block& block, int axis, bool high, int direction, double total, Index function = no_index);
   void gravity(int direction, double value);
+  /// u = value * function(t) along one direction, of global axes or a skew.
+  void displacement(const std::vector<Index>& nodes, int direction, double value, Index function, Index skew = no_index);
+  /// Fixed axes: x' at `angle` from x in the plane of x and y, z' = z.
+  Index skew_about_z(double angle);
+  /// Pressure on faces, positive against their outward normals.
+  void pressure(const std::vector<std::array<Index, 4>>& faces, double value, Index function = no_index);
   /// TYPE3 with the given stiffness factor, friction and gap. @return index of the interface
   Index contact(Index surface_1, Index surface_2, double stfac = 0.2, double friction = 0.0, double gap = 0.0);
   void history_node(Index node);

@@ -8,9 +8,10 @@
 // k -> infinity: contact lasts T, force Z v0, velocities reversed (Graff 1975, Wave Motion in Elastic Solids, 2.1.4).
 // The theory is linear; at v = 0.1 the strain is 10 % and v/c = 0.1 a shock (bulk viscosity takes 2 % of the impulse),
 // so the bars are of small strain without viscosity (Ismstr 1, qa = qb = 0) and one element across: with
-// nu = 0 the problem is one-dimensional. (Several elements across have corner, edge and inner nodes with unlike springs: the
-// faces warp, and at v = 0.1 they also pass more than one element deep into each other.) At v = 0.01 two elements across,
-// large strain and the default viscosity agree as well.
+// nu = 0 the problem is one-dimensional. At v = 0.01 two elements across, large strain and the default viscosity agree as well.
+// Several elements across have corner, edge and inner nodes with springs as 0.4 : 0.67 : 1 where the bar's stress asks for
+// 0.25 : 0.5 : 1, and only viscosity keeps one-point bricks from following: the faces bulge into each other. At v = 0.1 the nodes
+// in the middle are then half a segment deep behind the top of a facing bulge, as near to each of the four facets around it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -152,6 +153,20 @@ TEST(Bars, PartWhenTheSpringTheorySays) {
   print("two bars, large strain", solid, thick);
   EXPECT_NEAR(thick.end - thick.start, theory(solid).parting, 0.01 * theory(solid).parting);
   EXPECT_NEAR(thick.impulse, theory(solid).impulse, 0.01 * theory(solid).impulse);
+}
+
+// 6.1 with two elements across at v = 0.1. The springs' theory takes flat faces; the bulges make the last pair part later:
+// 22.95 is the figure of the issue. (A lateral shift of 1e-6 ends it: frictionless bulges slide off each other.)
+TEST(Bars, HoldWithTwoElementsAcross) {
+  BarCase b;
+  b.cells = 40;
+  b.across = 2;
+  const Impact r = two_bars(b);
+  print("two bars, 2 x 2 x 40", b, r);
+  EXPECT_NEAR(r.end, 22.95, 0.01 * 22.95);
+  EXPECT_NEAR(r.impulse, theory(b).impulse, 0.01 * theory(b).impulse);
+  EXPECT_LT(r.worst_error_contact, 0.01);
+  EXPECT_LT(r.made, 0.002);
 }
 
 TEST(Bars, ApproachIdealContactAsStiffnessGrows) {

@@ -18,6 +18,7 @@
 #include "constraints/boundary_conditions.hpp"
 #include "constraints/rigid_bodies.hpp"
 #include "init/contact_setup.hpp"
+#include "elements/assembly.hpp"
 #include "init/start.hpp"
 #include "support/recorder.hpp"
 #include "support/scene.hpp"
@@ -35,12 +36,12 @@ class Forces {
  public:
   explicit Forces(const model::Model& m)
       : groups_(abut::init::make_groups(m, {})),
-        assembly_(m.node_count(), m, groups_),
-        state(abut::init::make_state(m, groups_, assembly_)),
+        assembly_(m.node_count(), groups_),
+        state(abut::init::make_state(m, groups_)),
         axes_(m),
         bodies(m),
         conditions(m, axes_, bodies),
-        slots_(assembly_.slot_count(), 0.0) {
+        sums_(assembly_.sum_count(), 0.0) {
     bodies.initialise(state);
     interfaces_ = abut::init::make_interfaces(m, {}, {}, state);
     for (const auto& g : groups_) {
@@ -78,7 +79,7 @@ class Forces {
     for (const auto& g : groups_) {
       for (const auto span : g->history()) saved.emplace_back(span.begin(), span.end());
       const double h = fast_ ? no_step : slow_step;
-      (void)g->step({x.data(), v.data(), w.data(), h, h}, slots_, pool_);
+      (void)g->step({x.data(), v.data(), w.data(), h, h}, {sums_.data(), nullptr}, pool_);
     }
     std::size_t s = 0;
     for (const auto& g : groups_) {
@@ -88,7 +89,7 @@ class Forces {
       }
     }
     for (std::size_t i = 0; i < n; ++i) {
-      const abut::elements::NodalSum sum = assembly_.sum(slots_.data(), i);
+      const abut::elements::NodalSum sum = assembly_.total(sums_.data(), i);
       f[i] = sum.force;
       m[i] = sum.moment;
       k[i] = sum.stiffness;
@@ -140,7 +141,7 @@ class Forces {
   Index touching = 0;
 
  private:
-  std::vector<double> slots_;
+  std::vector<double> sums_;
   std::vector<abut::init::RunInterface> interfaces_;
   std::vector<std::vector<std::byte>> blobs_;
   Eigen::VectorXd zero_;

@@ -115,27 +115,66 @@ bool go_on(const py::object& self, const Limits& limits, const std::optional<py:
   return !run.is_over();
 }
 
-std::unique_ptr<HeldRun> make_run(const Model& model, int threads, const std::string& rules, const std::optional<std::string>& interface_law,
-                                  const std::optional<Path>& output, int hash_every, bool record_history, bool progress,
-                                  bool allow_findings) {
+using OptionalPath = std::optional<Path>;
+using OptionalWord = std::optional<std::string>;
+
+RunSettings settings_of(int threads, const std::string& rules, const OptionalWord& interface_law, const OptionalPath& output,
+                        int checkpoint_every, int hash_every, bool record_history, bool progress, bool allow_findings) {
   if (threads < 0) throw py::value_error("threads must be 0 (all) or more");
   if (hash_every < 0) throw py::value_error("hash_every must be 0 (never) or more");
-  auto held = std::make_unique<HeldRun>();
+  if (checkpoint_every < 0) throw py::value_error("checkpoint_every must be 0 (as the deck says) or more");
   RunSettings settings;
   settings.threads = threads;
   settings.choices = choices_of(rules, interface_law);
   settings.output = output.value_or(Path{});
+  settings.checkpoint_every = checkpoint_every;
   settings.hash_every = hash_every;
   settings.record_history = record_history;
   settings.progress = progress;
   settings.allow_findings = allow_findings;
+  return settings;
+}
+
+/// @param make  gives the run, with the settings' interrupt set, while the interpreter's lock is free
+template <class Settings, class Make>
+std::unique_ptr<HeldRun> hold(Settings settings, const Make& make) {
+  auto held = std::make_unique<HeldRun>();
   settings.interrupt = &held->interrupt;
   const py::gil_scoped_release free;
-  held->run = std::make_unique<Run>(model, settings);
+  held->run = make(settings);
   held->own_velocities = held->run->velocities().data();
   held->own_angular = held->run->angular_velocities().data();
   return held;
 }
+
+std::unique_ptr<HeldRun> make_run(const Model& model, int threads, const std::string& rules, const OptionalWord& interface_law,
+                                  const OptionalPath& output, int checkpoint_every, int hash_every, bool record_history, bool progress,
+                                  bool allow_findings) {
+  return hold(settings_of(threads, rules, interface_law, output, checkpoint_every, hash_every, record_history, progress, allow_findings),
+              [&](const RunSettings& settings) { return std::make_unique<Run>(model, settings); });
+}
+
+std::unique_ptr<HeldRun> load_run(const Model& model, const Path& checkpoint, int threads, const std::string& rules,
+                                  const OptionalWord& interface_law, const OptionalPath& output, int checkpoint_every, int hash_every,
+                                  bool record_history, bool progress, bool allow_findings) {
+  return hold(settings_of(threads, rules, interface_law, output, checkpoint_every, hash_every, record_history, progress, allow_findings),
+              [&](const RunSettings& settings) { return std::make_unique<Run>(Run::load(model, checkpoint, settings)); });
+}
+
+std::unique_ptr<HeldRun> resume_run(const Path& folder, const OptionalPath& deck, int threads, const std::optional<int>& checkpoint_every,
+                                    bool record_history, bool progress) {
+  if (threads < 0) throw py::value_error("threads must be 0 (all) or more");
+  if (checkpoint_every && *checkpoint_every < 0) throw py::value_error("checkpoint_every must be 0 or more");
+  ResumeSettings resumed;
+  resumed.deck = deck.value_or(Path{});
+  resumed.threads = threads;
+  resumed.checkpoint_every = checkpoint_every.value_or(-1);
+  resumed.record_history = record_history;
+  resumed.progress = progress;
+  return hold(resumed, [&](const ResumeSettings& settings) { return std::make_unique<Run>(Run::resume(folder, settings)); });
+}
+
+void save_run(const HeldRun& self, const Path& checkpoint) { self.idle().save(checkpoint); }
 
 Run& run_of(const py::object& self) { return self.cast<HeldRun&>().idle(); }
 
@@ -416,11 +455,25 @@ void bind_run(py::module_& m) {
       "and elements those of `force_time`, the start of the last cycle. Views show the present state: copy what is to be kept. Used\n"
       "with `with`, the run is finished, and its files complete, at the end of the block.");
   run.def(py::init(&make_run), "model"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard", "interface_law"_a = py::none(),
-          "output"_a = py::none(), "hash_every"_a = 0, "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false,
+          "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0, "record_history"_a = true, "progress"_a = false,
+          "allow_findings"_a = false,
           "Inspects the contacts, makes the first state, opens the files.\n\n"
           "threads: 0 for all. rules: 'standard' or 'reference'. interface_law: 'stiffening', 'constant' or None for the rule set's.\n"
-          "output: run folder; None: no files. hash_every: cycles between state hashes in run.json. allow_findings: run although the\n"
-          "inspection found errors. Raises InputError when it did, RunError when a file cannot be written.");
+          "output: run folder; None: no files. checkpoint_every: cycles between checkpoints in it, 0: as /RFILE of the deck says.\n"
+          "hash_every: cycles between state hashes in run.json. allow_findings: run although the inspection found errors.\n"
+          "Raises InputError when it did, RunError when a file cannot be written.")
+      .def_static("load", &load_run, "model"_a, "checkpoint"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard",
+                  "interface_law"_a = py::none(), "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0,
+                  "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false,
+                  "A run of `model` that begins in the state of a checkpoint of save(); arguments as of Run().\n\n"
+                  "Raises RunError when the checkpoint is not one of this model and these choices.")
+      .def_static("resume", &resume_run, "folder"_a, py::kw_only(), "deck"_a = py::none(), "threads"_a = 0, "checkpoint_every"_a = py::none(),
+                  "record_history"_a = true, "progress"_a = false,
+                  "Goes on from the newest whole checkpoint of a run folder, with its files: the same bits as if it had never stopped.\n\n"
+                  "folder: run folder or a checkpoint file in it. deck: Starter deck, None: where it was. checkpoint_every: None: as before.\n"
+                  "Raises RunError when there is no usable checkpoint, or it is of another model, version or deck; InputError of the deck.")
+      .def("save", &save_run, "checkpoint"_a,
+           "Writes a checkpoint: the whole state, in a file that is complete or not there. Raises RunError when it cannot be written.");
   bind_going(run);
   bind_state(run);
   bind_answers(run);

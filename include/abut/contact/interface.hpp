@@ -11,9 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "abut/contact/both_sides.hpp"
@@ -24,17 +25,15 @@
 
 namespace abut::contact {
 
-class InterfaceModel;  // internal
-
 /// Runs body(begin, end) on disjoint ranges that cover [0, count), on any threads and in any order; returns when all are done and
 /// hands on what a body throws. The results of an interface do not depend on how the ranges are cut.
 using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body)>;
 
 /// What changes about a surface: spans of #F values, copied when set.
 struct SurfaceState {
-  std::span<const double> stiffness;     ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
-  std::span<const double> thickness;     ///< shell thickness per facet; empty: none
-  std::span<const std::uint8_t> active;  ///< 0: eroded facet; empty: all active
+  std::span<const double> stiffness = {};     ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
+  std::span<const double> thickness = {};     ///< shell thickness per facet; empty: none
+  std::span<const std::uint8_t> active = {};  ///< 0: eroded facet; empty: all active
   /// #S in the order of Surface::nodes(): 0 is let go, others stay held with the stiffness of all their facets, eroded ones
   /// too. Empty: nodes are held by what is left of their facets.
   std::span<const std::uint8_t> node_active = {};
@@ -85,11 +84,15 @@ class Interface {
   void set_executor(Executor executor);
 
   /// Once per step, before evaluate, with the same positions.
+  /// @throws std::invalid_argument when a span of the host is too short for the interface's nodes (all three verbs' spans)
   void search(const HostState& host);
-  /// Once per step: `commit` moves its results into the history.
+  /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added
   /// @param stiffness #N: contact stiffness is added (numerics.md 2.3 convention: h <= sqrt(2 m / K))
+  /// @throws std::logic_error without a search in this step
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness);
+  /// @param dt  h_+, the step that the host takes now
+  /// @throws std::logic_error without an evaluate in this step
   void commit(double dt);
 
   /// Normal and tangential contact force on host nodes are added (output); tributary area of its surfaces' nodes too.
@@ -98,13 +101,23 @@ class Interface {
   /// Held nodes in contact now (host indices, each once): boundary-condition release (IBC) asks for it.
   [[nodiscard]] std::span<const Index> nodes_in_contact() const;
 
-  /// Explicit history (friction anchors, held pairs, energies, previous forces): a host can checkpoint it.
+  /// Explicit history (friction anchors, held pairs, energies, previous forces): a host can checkpoint it between commit and search.
+  /// With what set_surface() was given it is all that an interface made anew needs to go on with the same bits.
   [[nodiscard]] std::vector<std::byte> history() const;
-  void restore(std::span<const std::byte> history);  ///< @throws std::invalid_argument on a foreign or damaged blob
+  /// @throws std::invalid_argument, naming which, on a blob that is damaged, of another version of the library or of another interface
+  void restore(std::span<const std::byte> history);
+
+  /// From now on every input is written to `log`, see abut/contact/call_log.hpp. Results do not change by it.
+  /// @param log    opened in binary mode; must live until stop_recording() or the interface's end
+  /// @param label  what the host wants to find in the log: its name, version, job
+  /// @throws std::runtime_error here and in later calls when the log cannot be written
+  void record(std::ostream& log, std::string_view label = {});
+  void stop_recording();
 
  private:
-  explicit Interface(std::unique_ptr<InterfaceModel> model);
-  std::unique_ptr<InterfaceModel> model_;
+  struct Made;
+  explicit Interface(Made made);
+  std::unique_ptr<Made> made_;
 };
 
 }  // namespace abut::contact

@@ -61,7 +61,10 @@ struct Options {
   double gap = 0.0;               ///< length (T25..T28); >= 0
   double birth = 0.0;             ///< time from which the interface acts
   double death = 1e30;            ///< time after which it does not
-  double shear_limit = 1e30;      ///< Ptlim: largest friction stress; > 0
+  /// Gradual start: what overlaps (or lies within the gap) at birth is pushed apart over this time, not at once. Each node's
+  /// gap begins at what is there, as with Initial::offset, and grows to the full gap; 0: off. With `keep` and `offset` only.
+  double start_duration = 0.0;
+  double shear_limit = 1e30;  ///< Ptlim: largest friction stress; > 0
   /// Normal viscosity as a fraction of critical of the pair; 0 (as in the theory) to 1. It never pulls.
   double damping = 0.0;
   Initial initial = Initial::keep;
@@ -83,7 +86,8 @@ struct StepResult {
   double elastic = 0.0;        ///< CE: stored now in normal springs and elastic stick
   double friction_work = 0.0;  ///< FW: dissipated by slip, never decreases
   double damping_work = 0.0;   ///< DW
-  /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW: energy made (> 0) or lost by the numerics
+  double start_work = 0.0;     ///< SW: work that the growing gap of a gradual start has put in
+  /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW - SW: energy made (> 0) or lost by the numerics
   double made = 0.0;
   Vec3 normal_force;  ///< on the second (main) surface
   Vec3 tangential_force;

@@ -403,9 +403,7 @@ void BothSides::add_nodal_area(std::span<const Vec3>, std::span<double> area) co
   }
 }
 
-std::vector<std::byte> BothSides::history() const {
-  HistoryWriter out;
-  out.put(static_cast<std::uint64_t>(pairs_.size()));
+void BothSides::save(HistoryWriter& out) const {
   out.put_all(pairs_);
   out.put_all(old_force_);
   out.put_all(old_x_);
@@ -416,17 +414,11 @@ std::vector<std::byte> BothSides::history() const {
   out.put(friction_work_);
   out.put(damping_work_);
   out.put(contact_work_);
-  return out.finish();
 }
 
-void BothSides::restore(std::span<const std::byte> history) {
-  HistoryReader in(history);
-  std::uint64_t count = 0;
-  in.get(count);
+void BothSides::load(HistoryReader& in) {
   stale_ = true;
-  if (count > history.size()) throw std::invalid_argument("contact history: damaged");
-  pairs_.resize(count);
-  in.get_all(pairs_);
+  in.get_any(pairs_);
   in.get_all(old_force_);
   in.get_all(old_x_);
   in.get_all(gone_);
@@ -436,7 +428,6 @@ void BothSides::restore(std::span<const std::byte> history) {
   in.get(friction_work_);
   in.get(damping_work_);
   in.get(contact_work_);
-  in.finish();
 }
 
 }  // namespace abut::contact

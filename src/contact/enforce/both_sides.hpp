@@ -23,8 +23,8 @@ class BothSides final : public InterfaceModel {
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
   [[nodiscard]] std::span<const Index> nodes_in_contact() const override { return in_contact_; }
-  [[nodiscard]] std::vector<std::byte> history() const override;
-  void restore(std::span<const std::byte> history) override;
+  void save(HistoryWriter& out) const override;
+  void load(HistoryReader& in) override;
 
  private:
   /// A pair with p > 0 and what it carries to the next cycle.

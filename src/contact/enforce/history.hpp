@@ -1,66 +1,33 @@
-// The history blob: magic, version, length, checksum, then plain arrays in a fixed order.
+// The history blob: magic, version, whose it is, length, checksum, then plain values in a fixed order.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <stdexcept>
-#include <type_traits>
 #include <vector>
+
+#include "contact/record/bytes.hpp"
 
 namespace abut::contact {
 
 inline constexpr std::uint64_t history_magic = 0x3143544354554241ULL;  // "ABUTCTC1"
-inline constexpr std::uint64_t history_version = 1;
+/// Rises with every change of what is written. 1: before free borders had strips. 2: free borders. 3: owner in the head, normal force
+/// and start work, strips that widen.
+inline constexpr std::uint64_t history_version = 3;
 
-class HistoryWriter {
+class HistoryWriter : public ByteWriter {
  public:
-  HistoryWriter() : bytes_(4 * sizeof(std::uint64_t)) {}
-
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    append(&value, sizeof(T));
-  }
-  template <class T>
-  void put_all(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    put(static_cast<std::uint64_t>(values.size()));
-    append(values.data(), values.size() * sizeof(T));
-  }
+  /// @param owner  fingerprint of the interface
+  explicit HistoryWriter(std::uint64_t owner);
   [[nodiscard]] std::vector<std::byte> finish();
 
  private:
-  std::vector<std::byte> bytes_;
-  void append(const void* from, std::size_t length);
+  std::uint64_t owner_;
 };
 
-class HistoryReader {
+class HistoryReader : public ByteReader {
  public:
-  /// @throws std::invalid_argument unless magic, version, length and checksum fit
-  explicit HistoryReader(std::span<const std::byte> blob);
-
-  template <class T>
-  void get(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    take(&value, sizeof(T));
-  }
-  /// The length must be the one already in `values`.
-  template <class T>
-  void get_all(std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    std::uint64_t size = 0;
-    get(size);
-    if (size != values.size()) throw std::invalid_argument("contact history: made for another interface");
-    take(values.data(), values.size() * sizeof(T));
-  }
-  /// @throws std::invalid_argument when something is left over
-  void finish() const;
-
- private:
-  std::span<const std::byte> rest_;
-  void take(void* to, std::size_t length);
+  /// @throws std::invalid_argument unless magic, version, owner, length and checksum fit; the message says which does not
+  HistoryReader(std::span<const std::byte> blob, std::uint64_t owner);
 };
 
 }  // namespace abut::contact

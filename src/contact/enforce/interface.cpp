@@ -1,42 +1,149 @@
 #include "abut/contact/interface.hpp"
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
 #include "contact/enforce/both_sides.hpp"
 #include "contact/enforce/one_sided.hpp"
+#include "contact/record/recipe.hpp"
+#include "contact/record/recorder.hpp"
 
 namespace abut::contact {
 
-Interface::Interface(std::unique_ptr<InterfaceModel> model) : model_(std::move(model)) {}
+/// The model that computes, and what is known about how it came to be.
+struct Interface::Made {
+  std::unique_ptr<InterfaceModel> model;
+  Recipe recipe;
+  std::array<SurfaceValues, 2> surfaces = {};
+  std::uint64_t fingerprint = 0;
+  std::unique_ptr<Recorder> recorder = nullptr;
+  enum class Stage { idle, searched, evaluated } stage = Stage::idle;
+
+  /// The host's arrays reach to the last node of the interface.
+  void check(std::size_t length, const char* what, bool may_be_empty = false) const {
+    const std::size_t needed = recipe.hosted.empty() ? 0 : static_cast<std::size_t>(recipe.hosted.back()) + 1;
+    if (length >= needed || (length == 0 && may_be_empty)) return;
+    throw std::invalid_argument("contact: " + std::string(what) + " has " + std::to_string(length) + " nodes, the interface needs " +
+                                std::to_string(needed));
+  }
+  void check(const HostState& host) const {
+    check(host.x.size(), "x");
+    check(host.v.size(), "v");
+    check(host.mass.size(), "mass", true);
+  }
+  [[nodiscard]] std::vector<std::byte> history() const {
+    HistoryWriter out(fingerprint);
+    model->save(out);
+    return out.finish();
+  }
+};
+
+Interface::Interface(Made made) : made_(std::make_unique<Made>(std::move(made))) {
+  made_->recipe.collect();
+  made_->fingerprint = made_->recipe.fingerprint();
+}
 Interface::~Interface() = default;
 Interface::Interface(Interface&&) noexcept = default;
 Interface& Interface::operator=(Interface&&) noexcept = default;
 
 Interface Interface::two_surfaces(Surface first, Surface second, const Options& options) {
-  return Interface(std::make_unique<OneSided>(std::move(first), std::move(second), options));
+  Recipe recipe;
+  recipe.side = {Recipe::Topology(first), Recipe::Topology(second)};
+  recipe.options = options;
+  return Interface(Made{std::make_unique<OneSided>(std::move(first), std::move(second), options), std::move(recipe)});
 }
 
 Interface Interface::nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface,
                                       const Options& options) {
-  return Interface(std::make_unique<OneSided>(std::move(nodes), std::move(node_stiffness), std::move(surface), options));
+  Recipe recipe;
+  recipe.kind = Recipe::Kind::nodes_to_surface;
+  recipe.side[1] = Recipe::Topology(surface);
+  recipe.nodes = nodes;
+  recipe.node_stiffness = node_stiffness;
+  recipe.options = options;
+  return Interface(
+      Made{std::make_unique<OneSided>(std::move(nodes), std::move(node_stiffness), std::move(surface), options), std::move(recipe)});
 }
 
 Interface Interface::both_sides(std::vector<Index> nodes, Surface surface, const BothSidesOptions& options) {
-  return Interface(std::make_unique<BothSides>(std::move(nodes), std::move(surface), options));
+  Recipe recipe;
+  recipe.kind = Recipe::Kind::both_sides;
+  recipe.side[1] = Recipe::Topology(surface);
+  recipe.nodes = nodes;
+  recipe.both = options;
+  return Interface(Made{std::make_unique<BothSides>(std::move(nodes), std::move(surface), options), std::move(recipe)});
 }
 
-void Interface::set_surface(int side, const SurfaceState& state) { model_->set_surface(side, state); }
+void Interface::set_surface(int side, const SurfaceState& state) {
+  made_->model->set_surface(side, state);
+  made_->surfaces[static_cast<std::size_t>(side)].take(state);
+  if (made_->recorder) made_->recorder->surface(side, state);
+}
+
 std::vector<Projection> Interface::projections(std::span<const Vec3> x, bool move_surface) const {
-  return model_->projections(x, move_surface);
+  made_->check(x.size(), "x");
+  return made_->model->projections(x, move_surface);
 }
-void Interface::set_executor(Executor executor) { model_->set_executor(std::move(executor)); }
-void Interface::search(const HostState& host) { model_->search(host); }
+
+void Interface::set_executor(Executor executor) { made_->model->set_executor(std::move(executor)); }
+
+void Interface::search(const HostState& host) {
+  made_->check(host);
+  if (made_->recorder) made_->recorder->search(host);
+  made_->model->search(host);
+  made_->stage = Made::Stage::searched;
+}
+
 StepResult Interface::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
-  return model_->evaluate(host, force, stiffness);
+  if (made_->stage != Made::Stage::searched) throw std::logic_error("contact: evaluate() needs a search() before it in the same step");
+  made_->check(host);
+  made_->check(force.size(), "force");
+  made_->check(stiffness.size(), "stiffness");
+  if (made_->recorder) made_->recorder->evaluate(host, force, stiffness);
+  const StepResult result = made_->model->evaluate(host, force, stiffness);
+  if (made_->recorder) made_->recorder->result(result, force, stiffness);
+  made_->stage = Made::Stage::evaluated;
+  return result;
 }
-void Interface::commit(double dt) { model_->commit(dt); }
-void Interface::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const { model_->add_nodal_forces(normal, tangential); }
-void Interface::add_nodal_area(std::span<const Vec3> x, std::span<double> area) const { model_->add_nodal_area(x, area); }
-std::span<const Index> Interface::nodes_in_contact() const { return model_->nodes_in_contact(); }
-std::vector<std::byte> Interface::history() const { return model_->history(); }
-void Interface::restore(std::span<const std::byte> history) { model_->restore(history); }
+
+void Interface::commit(double dt) {
+  if (made_->stage != Made::Stage::evaluated) throw std::logic_error("contact: commit() needs an evaluate() before it in the same step");
+  if (made_->recorder) made_->recorder->commit(dt);
+  made_->model->commit(dt);
+  made_->stage = Made::Stage::idle;
+}
+
+void Interface::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
+  made_->check(normal.size(), "normal");
+  made_->check(tangential.size(), "tangential");
+  made_->model->add_nodal_forces(normal, tangential);
+}
+
+void Interface::add_nodal_area(std::span<const Vec3> x, std::span<double> area) const {
+  made_->check(x.size(), "x");
+  made_->check(area.size(), "area");
+  made_->model->add_nodal_area(x, area);
+}
+
+std::span<const Index> Interface::nodes_in_contact() const { return made_->model->nodes_in_contact(); }
+
+std::vector<std::byte> Interface::history() const { return made_->history(); }
+
+void Interface::restore(std::span<const std::byte> history) {
+  HistoryReader in(history, made_->fingerprint);
+  made_->model->load(in);
+  in.finish();
+  made_->stage = Made::Stage::idle;
+  if (made_->recorder) made_->recorder->history(history);
+}
+
+void Interface::record(std::ostream& log, std::string_view label) {
+  made_->recorder = std::make_unique<Recorder>(log, made_->recipe, made_->surfaces, made_->history(), label);
+}
+
+void Interface::stop_recording() { made_->recorder.reset(); }
 
 }  // namespace abut::contact

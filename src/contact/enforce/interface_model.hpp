@@ -2,6 +2,7 @@
 #pragma once
 
 #include "abut/contact/interface.hpp"
+#include "contact/enforce/history.hpp"
 
 namespace abut::contact {
 
@@ -22,8 +23,8 @@ class InterfaceModel {
   virtual void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const = 0;
   virtual void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const = 0;
   [[nodiscard]] virtual std::span<const Index> nodes_in_contact() const = 0;
-  [[nodiscard]] virtual std::vector<std::byte> history() const = 0;
-  virtual void restore(std::span<const std::byte> history) = 0;
+  virtual void save(HistoryWriter& out) const = 0;
+  virtual void load(HistoryReader& in) = 0;
 };
 
 }  // namespace abut::contact

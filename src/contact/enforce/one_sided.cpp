@@ -22,6 +22,10 @@ void check(const Options& o) {
   if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) refuse("filter share must be > 0 and at most 1", o.filter.share);
   if (!(o.filter.frequency >= 0.0)) refuse("filter frequency must be >= 0", o.filter.frequency);
   if (!(o.shear_limit > 0.0)) refuse("shear_limit must be > 0", o.shear_limit);
+  if (!(o.start_duration >= 0.0) || !std::isfinite(o.start_duration)) refuse("start_duration must be >= 0", o.start_duration);
+  if (o.start_duration > 0.0 && (o.initial == Initial::project || o.initial == Initial::ignore)) {
+    throw std::invalid_argument("contact: a gradual start pushes initial penetrations out; it cannot be had with project or ignore");
+  }
   if (!(o.depth_limit >= 0.0)) refuse("depth_limit must be >= 0", o.depth_limit);
 }
 
@@ -183,13 +187,15 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   StepResult result;
   friction_step_ = total[0].dissipated + total[1].dissipated;
   damping_step_ = total[0].damped + total[1].damped;
+  start_step_ = total[0].started + total[1].started;
   result.damping_work = damping_work_ + damping_step_;
+  result.start_work = start_work_ + start_step_;
   result.elastic = (total[0].potential + total[0].stick) + (total[1].potential + total[1].stick);
   result.friction_work = friction_work_ + friction_step_;
   const double work = (loads_[0].work + loads_[0].work_step) + (loads_[1].work + loads_[1].work_step);
   if (!evaluated_) initial_elastic_ = result.elastic;
   evaluated_ = true;
-  result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work;
+  result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work - result.start_work;
   result.normal_force = total[1].normal - total[0].normal;
   result.tangential_force = total[1].tangential - total[0].tangential;
   result.in_contact = total[0].in_contact + total[1].in_contact;
@@ -221,6 +227,8 @@ void OneSided::commit(double) {
   friction_step_ = 0.0;
   damping_work_ += damping_step_;
   damping_step_ = 0.0;
+  start_work_ += start_step_;
+  start_step_ = 0.0;
 }
 
 void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
@@ -243,24 +251,22 @@ void OneSided::add_nodal_area(std::span<const Vec3> x, std::span<double> area) c
   }
 }
 
-std::vector<std::byte> OneSided::history() const {
-  HistoryWriter out;
+void OneSided::save(HistoryWriter& out) const {
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
   out.put(static_cast<std::uint64_t>(evaluated_ ? 1 : 0));
   out.put(initial_elastic_);
   out.put(friction_work_);
   out.put(damping_work_);
+  out.put(start_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     out.put(loads_[k].work);
     out.put_all(loads_[k].force_before);
     out.put_all(loads_[k].x_before);
   }
   for (const Pass& pass : pass_) pass.save(out);
-  return out.finish();
 }
 
-void OneSided::restore(std::span<const std::byte> history) {
-  HistoryReader in(history);
+void OneSided::load(HistoryReader& in) {
   std::uint64_t started = 0;
   in.get(started);
   started_ = started != 0;
@@ -269,6 +275,7 @@ void OneSided::restore(std::span<const std::byte> history) {
   in.get(initial_elastic_);
   in.get(friction_work_);
   in.get(damping_work_);
+  in.get(start_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     loads_[k].clear();  // an evaluation that was not committed leaves nothing behind
     in.get(loads_[k].work);
@@ -277,7 +284,6 @@ void OneSided::restore(std::span<const std::byte> history) {
     std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), static_cast<std::uint8_t>(SideLoads::now | SideLoads::before));
   }
   for (Pass& pass : pass_) pass.load(in);
-  in.finish();
 }
 
 }  // namespace abut::contact

@@ -22,8 +22,8 @@ class OneSided final : public InterfaceModel {
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
   [[nodiscard]] std::span<const Index> nodes_in_contact() const override { return in_contact_; }
-  [[nodiscard]] std::vector<std::byte> history() const override;
-  void restore(std::span<const std::byte> history) override;
+  void save(HistoryWriter& out) const override;
+  void load(HistoryReader& in) override;
 
  private:
   Options options_;
@@ -33,7 +33,7 @@ class OneSided final : public InterfaceModel {
   std::array<SideLoads, 2> loads_;
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
   std::vector<Index> in_contact_;
-  double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0;
+  double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0, start_work_ = 0.0, start_step_ = 0.0;
   double initial_elastic_ = 0.0;  ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
 

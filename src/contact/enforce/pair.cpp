@@ -25,13 +25,16 @@ Directions free_directions(const ClosestPoint& c, bool triangle) {
 }  // namespace
 
 PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, double gap, double scale,
-                     double node_stiffness, bool half_of_facet) {
+                     double node_stiffness, bool half_of_facet, double widening) {
   PairForce result;
   const ClosestPoint& c = m.closest;
   const Patch patch = surface.patch(m.facet);
   const std::array<Index, 4>& corner = surface.surface().local()[at(m.facet)];
   const std::size_t corners = patch.triangle ? 3 : 4;
-  const Taper t = taper(patch, c.s, c.t);
+  const double p = gap - m.distance;
+  const double wider = widening * std::max(-m.distance, 0.0);
+  const bool widens = wider > 0.0 && wider < border_widening;
+  const Taper t = taper(patch, c.s, c.t, std::min(wider, border_widening));
   if (c.beyond || t.value <= 0.0) return result;
 
   double k1 = 0.0;
@@ -57,10 +60,9 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   }
   if (clipped) slope = 0.0;
 
-  const double p = gap - m.distance;
   const double phi = law.potential(p);
   result.stiffness = t.value * pair;
-  result.magnitude = result.stiffness * law.force(p);
+  result.magnitude = result.stiffness * law.force(p) + (widens ? pair * phi * t.dw * widening : 0.0);
   result.potential = result.stiffness * phi;
   result.on_node = result.magnitude * m.normal;
 
@@ -98,8 +100,10 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
     // Cross terms kappa' phi' and, in a strip, T'' phi: |T''| <= 8 and |T'| <= 1.54 in units of the strip.
     if (phi > 0.0) result.extra_tangent = norm(sideways) * law.force(p) / phi;
     if (t.value < 1.0) {
-      const double width = (1.0 - border_flat) * border_strip * std::sqrt(patch.triangle ? a11 : 4.0 * a11);
+      constexpr double fall = (1.0 - border_flat) * border_strip;
+      const double width = fall * std::sqrt(patch.triangle ? a11 : 4.0 * a11);
       if (width > 0.0) result.extra_tangent += pair * 8.0 * phi / (width * width);
+      if (widens) result.extra_tangent += pair * (2.0 * 1.54 * law.force(p) + 8.0 * phi * widening / fall) * widening / fall;
     }
   }
   if (c.feature != Feature::face && m.distance < 0.0) {

@@ -1,9 +1,9 @@
 // The forces of one pair as the exact gradient of its potential.
 //
-//   Psi = kappa(xi) phi(P),  P = gap - d,  kappa = T(xi) Kp(xi),  Kp = s K1 K2/(K1 + K2)   (T13)
+//   Psi = kappa phi(P),  P = gap - d,  kappa = T(xi, P) Kp(xi),  Kp = s K1 K2/(K1 + K2)   (T13)
 // xi: parameters of the closest point, K1(xi) = sum H_i K_i the facet stiffness interpolated from its corners, K2 the node's own, T
 // the taper of free borders. With r = x - X(xi), A_ab = X_a.X_b - r.X_ab and c^a = phi A^-1_ab dkappa/dxi_b:
-//   node:           f   =  kappa phi' n - c^a X_a
+//   node:           f   =  (kappa phi' + Kp phi dT/dP) n - c^a X_a
 //   facet node i:   f_i = -H_i f - c^a H_i,a r
 // sum f_i = -f because sum H_i,a = 0. The terms with c exist only where kappa varies; they are what makes dragging a node
 // over a change of stiffness, or off a border, give back its work. On an edge xi has one free direction, at a corner none.
@@ -27,8 +27,9 @@ struct PairForce {
 };
 
 /// @param scale, node_stiffness  s and K2
+/// @param widening               strips widen by this fraction of a side per unit of depth behind the facet (0: they do not)
 /// @param half_of_facet          K = s K1 / 2 instead of the series (nodes without a stiffness of their own)
 [[nodiscard]] PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, double gap, double scale,
-                                   double node_stiffness, bool half_of_facet);
+                                   double node_stiffness, bool half_of_facet, double widening);
 
 }  // namespace abut::contact

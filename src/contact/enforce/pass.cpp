@@ -11,6 +11,17 @@ namespace {
 
 constexpr Index group = 128;  // nodes handled together (numerics.md 7.3.1)
 
+// Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
+// after birth, which begins and ends at no speed.
+double kept_share(const Options& options, double before, double now) {
+  const auto left = [&options](double t) {
+    const double u = std::clamp((t - options.birth) / options.start_duration, 0.0, 1.0);
+    return (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
+  };
+  const double was = left(before);
+  return was > 0.0 ? left(now) / was : 0.0;
+}
+
 }  // namespace
 
 void SideLoads::resize(std::size_t nodes) {
@@ -37,6 +48,7 @@ PassTotals& PassTotals::operator+=(const PassTotals& b) {
   stick += b.stick;
   dissipated += b.dissipated;
   damped += b.damped;
+  started += b.started;
   largest_penetration = std::max(largest_penetration, b.largest_penetration);
   largest_approach = std::max(largest_approach, b.largest_approach);
   if (b.kinematic_step < kinematic_step) {
@@ -61,10 +73,13 @@ void Pass::start(const Side& held, const Side& surface) {
   started_ = true;
   size_ = surface.mean_size();
   depth_.resize(at(surface.facet_count()));
+  widening_.resize(at(surface.facet_count()));
   for (Index f = 0; f < surface.facet_count(); ++f) {
+    const double length = std::sqrt(surface.facet_area(f));
+    widening_[at(f)] = length > 0.0 ? 1.0 / length : 0.0;
     double depth = options_.depth_limit;
     if (depth <= 0.0) {
-      depth = 0.5 * std::sqrt(surface.facet_area(f));
+      depth = 0.5 * length;
       if (surface.thickness(f) > 0.0) depth = std::min(depth, std::max(surface.thickness(f), options_.gap));
     }
     depth_[at(f)] = depth;
@@ -140,6 +155,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
   sums.totals = {};
   sums.reactions.clear();
   sums.in_contact.clear();
+  sums.equals.clear();
   std::array<Index, at(group)> nodes;
   std::size_t count = 0;
   bool any = false;
@@ -150,7 +166,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
     nodes[count++] = i;
     next_[at(i)] = state_[at(i)];
     if (closest()) {
-      measure_closest(host, held, surface, held_loads, surface_loads, i, touch);
+      measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
     } else {
       measure_plain(held, surface, i, touch);
     }
@@ -169,6 +185,8 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
     // The last damping force acts over half of the step that ends the contact.
     if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
     after.damping = 0.0;
+    sums.totals.started += 0.5 * before.force * growth(before);
+    after.force = 0.0;
     after.rate = 0.0;
     after.acceleration = 0.0;
     if (!anchors || any) {
@@ -192,6 +210,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
 
 PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads) {
   const Scene scene{host, held, surface, held_loads, surface_loads};
+  keep_ = options_.start_duration > 0.0 ? kept_share(options_, host.time - host.dt, host.time) : 1.0;
   groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
   const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;
@@ -244,6 +263,7 @@ void Pass::save(HistoryWriter& out) const {
   out.put_all(state_);
   out.put(static_cast<std::uint64_t>(started_ ? depth_.size() : 0));
   for (const double d : depth_) out.put(d);
+  for (const double w : widening_) out.put(w);
   out.put(size_);
   out.put(settled_);
   for (const Tracked& t : tracked_) out.put(t);
@@ -257,6 +277,8 @@ void Pass::load(HistoryReader& in) {
   started_ = facets > 0;
   depth_.resize(facets);
   for (double& d : depth_) in.get(d);
+  widening_.resize(facets);
+  for (double& w : widening_) in.get(w);
   limit_depths();
   in.get(size_);
   in.get(settled_);

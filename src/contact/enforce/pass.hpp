@@ -54,8 +54,9 @@ struct NodeState {
   double acceleration = 0.0;  ///< that the contact force gave to the opening
   double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
   double damping = 0.0;       ///< damping force of the last step
+  double force = 0.0;         ///< normal force of the last step, without damping
   std::int32_t facet = no_index;
-  std::uint8_t held = 0;
+  std::uint8_t held = 0;     ///< 1: came over a border; 2: came through the front, its strips widen with its depth
   std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
   std::uint8_t anchored = 0;
   std::uint8_t in_front = 0;  ///< was measured in front of a facet
@@ -64,6 +65,7 @@ struct NodeState {
 struct PassTotals {
   Vec3 normal, tangential;  ///< on the held nodes
   double potential = 0.0, stick = 0.0, dissipated = 0.0, damped = 0.0;
+  double started = 0.0;  ///< work of a growing gap
   double largest_penetration = 0.0, largest_approach = 0.0;
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;
@@ -101,12 +103,21 @@ class Pass {
     bool known = false;  ///< facet, point, normal, distance are valid
     bool contact = false;
     bool fresh_hit = false;
+    bool widens = false;
     bool far = false;  ///< cannot touch now or in the coming step: not measured
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;
     double penetration = 0.0;
-    PairForce pair;
+    PairForce pair;               ///< where several facets are equally near: the mean of theirs
+    std::size_t first_equal = 0;  ///< further facets at the same distance: GroupSums::equals from here
+    std::size_t equals = 0;
+  };
+  // A further facet that is as near as the first: the node's force is the mean over all, whatever their ids.
+  struct Equal {
+    Index facet = no_index;
+    std::array<double, 4> weight{};
+    std::array<Vec3, 4> on_facet;  ///< its share
   };
   // What a node does to the corners of its facet; added in the order of the nodes when all are measured.
   struct Reaction {
@@ -121,6 +132,7 @@ class Pass {
     PassTotals totals;
     std::vector<Reaction> reactions;
     std::vector<Index> in_contact;
+    std::vector<Equal> equals;
   };
   struct Scene {
     const HostState& host;
@@ -144,8 +156,10 @@ class Pass {
   bool stale_ = true;
   bool started_ = false;
   bool settled_ = false;  ///< initial penetrations are dealt with
+  double keep_ = 1.0;     ///< share of every node's offset that the gradual start leaves in this step
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
-  std::vector<double> depth_;  ///< per facet: how far behind a node is still met
+  std::vector<double> depth_;     ///< per facet: how far behind a node is still met
+  std::vector<double> widening_;  ///< per facet: 1 / its length at the start
   std::vector<NodeState> state_, next_;
   std::vector<Tracked> tracked_;
   std::vector<Index> in_contact_;
@@ -157,11 +171,16 @@ class Pass {
   double surface_step_ = 0.0;  ///< largest motion of the surface in the last step, relative to its mean
   Vec3 mean_step_;
 
+  [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const;
+  /// How much of a node's offset the gradual start gives back to its gap in this step.
+  [[nodiscard]] double growth(const NodeState& before) const;
   /// Gap of a node at this distance, less what initial penetration takes from it.
   [[nodiscard]] double gap_of(double distance, NodeState& after) const;
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
-                       const SideLoads& surface_loads, Index i, Touch& touch);
+                       const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums);
+  /// Adds the facets that are as near as the one in `touch`.
+  void share_among_equals(const Side& held, const Side& surface, const Measure& m, Index i, double strip, Touch& touch, GroupSums& sums);
   void measure_plain(const Side& held, const Side& surface, Index i, Touch& touch);
   /// Stiffness of a node with a facet, neither interpolated nor tapered (T13; TYPE5: half of the facet's).
   [[nodiscard]] double plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const;

@@ -62,8 +62,10 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
-  const double closing = -motion.rate;
-  if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, closing * host.dt / options_.gap);
+  if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
+  // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
+  const double grown = growth(before);
+  const double closing = -motion.rate + (grown > 0.0 && host.dt > 0.0 ? grown / host.dt : 0.0);
   Reaction reaction;
   reaction.facet = touch.facet;
   reaction.weight = touch.weight;
@@ -112,6 +114,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   totals.largest_penetration = std::max(totals.largest_penetration, penetration);
   sums.in_contact.push_back(held.nodes()[at(i)]);
 
+  const double share = 1.0 / static_cast<double>(touch.equals + 1);
   const bool fresh = before.held == 0;
   double fraction = 1.0;  // of the last step in contact
   double factor = 1.0;
@@ -121,7 +124,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, motion.rate, inverse_mass, others};
+    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others};
     const Switched switched = switched_force(s, fresh);
     factor = switched.force / touch.pair.magnitude;
     totals.potential += switched.stored;
@@ -131,19 +134,21 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   double normal_force = factor * touch.pair.magnitude;
   Vec3 on_node = factor * touch.pair.on_node;
   for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
+  totals.started += 0.5 * (before.force + normal_force) * grown;
+  after.force = normal_force;
   after.damping = 0.0;
   if (options_.damping > 0.0 && motion.inverse_mass > 0.0) {
     const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / motion.inverse_mass);
     after.damping = std::max(-c * motion.rate, -normal_force);
     totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
     on_node += after.damping * touch.normal;
-    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= touch.weight[k] * after.damping * touch.normal;
+    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= (share * touch.weight[k] * after.damping) * touch.normal;
   }
   held_loads.own_normal[at(i)] = on_node;
   held_loads.loaded[at(i)] |= SideLoads::now;
   totals.normal += on_node;
 
-  after.held = 1;
+  after.held = touch.widens ? 2 : 1;
   after.facet = touch.facet;
   after.normal = touch.normal;
   after.rate = motion.rate;
@@ -163,10 +168,18 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     held_loads.own_tangential[at(i)] = -on_surface;
-    reaction.tangential = on_surface;
+    reaction.tangential = share * on_surface;
     totals.tangential -= on_surface;
   }
   sums.reactions.push_back(reaction);
+  for (std::size_t k = touch.first_equal; k < touch.first_equal + touch.equals; ++k) {
+    const Equal& one = sums.equals[k];
+    Reaction further{one.facet, reaction.stiffness, one.weight, {}, reaction.tangential};
+    for (std::size_t c = 0; c < 4; ++c) {
+      further.normal[c] = factor * one.on_facet[c] - (share * one.weight[c] * after.damping) * touch.normal;
+    }
+    sums.reactions.push_back(further);
+  }
 }
 
 }  // namespace abut::contact

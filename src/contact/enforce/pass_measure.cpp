@@ -10,6 +10,7 @@ namespace abut::contact {
 namespace {
 
 constexpr double never = 1e300;  // offset of a node that is ignored
+constexpr double equal = 1e-8;   // relative difference of distances that are the same
 
 Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   Patch patch = side.patch(f);
@@ -53,7 +54,7 @@ Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& 
 }
 
 void Pass::measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
-                           const SideLoads& surface_loads, Index i, Touch& touch) {
+                           const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums) {
   const NodeState& before = state_[at(i)];
   NodeState& after = next_[at(i)];
   touch = {};
@@ -67,9 +68,11 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
       return;
     }
   }
+  touch.widens = was_held && before.held == 2;
+  const double strip = touch.widens ? border_strip + border_widening : border_strip;
   Measure m;
   if (was_held || !candidates_.of(i).empty())
-    m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal} : HeldBy{});
+    m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal, strip} : HeldBy{});
   const auto take = [&](const Measure& measure) {
     touch.facet = measure.facet;
     touch.known = true;
@@ -111,19 +114,67 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   }
   if (!touch.known) return;
   touch.penetration = gap - m.distance;
-  touch.pair = pair_force(surface, m, x, law_, gap, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_);
+  // A node that was in front, that the swept test caught, or that touches at the start comes through the front.
+  if (!was_held) touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_;
+  touch.pair = force_of(held, surface, m, i, gap, touch.widens);
   touch.contact = meets && touch.pair.magnitude > 0.0;
+  if (touch.contact) share_among_equals(held, surface, m, i, strip, touch, sums);
 }
+
+PairForce Pass::force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const {
+  return pair_force(surface, m, held.x()[at(i)], law_, gap, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_,
+                    widens ? widening_[at(m.facet)] : 0.0);
+}
+
+void Pass::share_among_equals(const Side& held, const Side& surface, const Measure& m, Index i, double strip, Touch& touch,
+                              GroupSums& sums) {
+  const Vec3 x = held.x()[at(i)];
+  const double distance = std::sqrt(m.closest.squared_distance);
+  const double size = surface.facet_area(m.facet);
+  touch.first_equal = sums.equals.size();
+  PairForce& pair = touch.pair;
+  Vec3 normal = touch.normal;
+  for (const Candidates::Entry& entry : candidates_.of(i)) {
+    const Index f = entry.facet;
+    if (entry.due - candidates_.clock() > (1.0 + equal) * distance || f == m.facet || !surface.active(f)) continue;
+    const ClosestPoint other = closest_point(extended(surface, f, strip), x);
+    if (std::abs(std::sqrt(other.squared_distance) - distance) > equal * distance || other.beyond) continue;
+    if (squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from the facet across
+    const Measure its = signed_measure(surface, f, other, x);
+    if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
+    const PairForce one = force_of(held, surface, its, i, touch.penetration + m.distance, touch.widens);
+    sums.equals.push_back({f, other.weight, one.on_facet});
+    normal += its.normal;
+    pair.on_node += one.on_node;
+    pair.magnitude += one.magnitude;
+    pair.potential += one.potential;
+    pair.stiffness = std::max(pair.stiffness, one.stiffness);
+    pair.extra_tangent = std::max(pair.extra_tangent, one.extra_tangent);
+  }
+  touch.equals = sums.equals.size() - touch.first_equal;
+  if (touch.equals == 0) return;
+  const double share = 1.0 / static_cast<double>(touch.equals + 1);
+  pair.on_node = share * pair.on_node;
+  pair.magnitude *= share;
+  pair.potential *= share;
+  for (Vec3& force : pair.on_facet) force = share * force;
+  for (std::size_t k = touch.first_equal; k < sums.equals.size(); ++k) {
+    for (Vec3& force : sums.equals[k].on_facet) force = share * force;
+  }
+  touch.normal = normalized(normal);
+}
+
+double Pass::growth(const NodeState& before) const { return before.offset < never ? (1.0 - keep_) * before.offset : 0.0; }
 
 double Pass::gap_of(double distance, NodeState& after) const {
   const double full = options_.gap - distance;
   if (!settled_) {
-    if (full > 0.0 && options_.initial == Initial::offset) after.offset = full;
+    if (full > 0.0 && (options_.initial == Initial::offset || options_.start_duration > 0.0)) after.offset = full;
     if (full > 0.0 && options_.initial == Initial::ignore) after.offset = never;
   } else if (full <= 0.0) {
     after.offset = 0.0;
   } else if (after.offset < never) {
-    after.offset = std::min(after.offset, full);  // what the node has moved away is gap again
+    after.offset = std::min(keep_ * after.offset, full);  // what the node has moved away is gap again
   }
   return options_.gap - after.offset;
 }

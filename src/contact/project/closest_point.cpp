@@ -11,7 +11,7 @@ struct Box {
 };
 
 Box domain(const Patch& patch) {
-  const double strip = 2.0 * border_strip;  // s and t run over two per side
+  const double strip = 2.0 * patch.strip;  // s and t run over two per side
   const auto open = [&patch, strip](int side) { return (patch.borders >> side & 1) != 0 ? strip : 0.0; };
   return {-1.0 - open(3), 1.0 + open(1), -1.0 - open(0), 1.0 + open(2)};
 }
@@ -157,7 +157,7 @@ ClosestPoint closest_on_quad(const Patch& patch, const Vec3& x) {
 ClosestPoint closest_on_triangle(const Patch& patch, const Vec3& x) {
   // Bounds lambda_i >= -open_i make a larger triangle; side e lies opposite corner (e + 2) % 3.
   std::array<double, 3> open{};
-  for (std::size_t e = 0; e < 3; ++e) open[(e + 2) % 3] = (patch.borders >> e & 1) != 0 ? border_strip : 0.0;
+  for (std::size_t e = 0; e < 3; ++e) open[(e + 2) % 3] = (patch.borders >> e & 1) != 0 ? patch.strip : 0.0;
   std::array<std::array<double, 3>, 3> corner{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) corner[i][j] = -open[j];
@@ -234,15 +234,18 @@ ClosestPoint closest_on_triangle(const Patch& patch, const Vec3& x) {
   return result;
 }
 
-// One strip: u = overshoot / width in [0, 1] -> (1 - u^2)^2 and its slope in the overshoot.
-Taper strip(double overshoot, double width) {
-  const double flat = border_flat * width;
+// One strip: (1 - u^2)^2, u the share of its sloping part, and its slope in the overshoot.
+struct Fall {
+  double value = 1.0, slope = 0.0;
+};
+Fall strip(double overshoot, double width, double wider) {
+  const double flat = border_flat * width + wider;
   if (overshoot <= flat) return {};
-  const double fall = width - flat;
+  const double fall = (1.0 - border_flat) * width;
   const double u = (overshoot - flat) / fall;
-  if (u >= 1.0) return {0.0, 0.0, 0.0};
+  if (u >= 1.0) return {0.0, 0.0};
   const double rest = 1.0 - u * u;
-  return {rest * rest, -4.0 * u * rest / fall, 0.0};
+  return {rest * rest, -4.0 * u * rest / fall};
 }
 
 }  // namespace
@@ -278,26 +281,29 @@ Vec3 normal_at(const Patch& patch, double s, double t) {
   return normalized(cross(tangent[0], tangent[1]));
 }
 
-Taper taper(const Patch& patch, double s, double t) {
+Taper taper(const Patch& patch, double s, double t, double wider) {
   if (patch.borders == 0) return {};
-  const auto is_border = [&patch](int side) { return (patch.borders >> side & 1) != 0; };
   Taper result;
-  const auto times = [&result](const Taper& one, double ds, double dt) {
-    result.ds = result.ds * one.value + result.value * one.ds * ds;
-    result.dt = result.dt * one.value + result.value * one.ds * dt;
+  const double unit = patch.triangle ? 1.0 : 2.0;  // s and t run over 1 or 2 per side
+  // Product over the sides: over(shoot) grows with ds, dt.
+  const auto times = [&](int side, double over, double ds, double dt) {
+    if ((patch.borders >> side & 1) == 0) return;
+    const Fall one = strip(over, unit * border_strip, unit * wider);
+    result.ds = result.ds * one.value + result.value * one.slope * ds;
+    result.dt = result.dt * one.value + result.value * one.slope * dt;
+    result.dw = result.dw * one.value - result.value * one.slope * unit;
     result.value *= one.value;
   };
   if (patch.triangle) {
-    if (is_border(0)) times(strip(-t, border_strip), 0.0, -1.0);
-    if (is_border(1)) times(strip(s + t - 1.0, border_strip), 1.0, 1.0);
-    if (is_border(2)) times(strip(-s, border_strip), -1.0, 0.0);
+    times(0, -t, 0.0, -1.0);
+    times(1, s + t - 1.0, 1.0, 1.0);
+    times(2, -s, -1.0, 0.0);
     return result;
   }
-  const double width = 2.0 * border_strip;
-  if (is_border(0)) times(strip(-1.0 - t, width), 0.0, -1.0);
-  if (is_border(1)) times(strip(s - 1.0, width), 1.0, 0.0);
-  if (is_border(2)) times(strip(t - 1.0, width), 0.0, 1.0);
-  if (is_border(3)) times(strip(-1.0 - s, width), -1.0, 0.0);
+  times(0, -1.0 - t, 0.0, -1.0);
+  times(1, s - 1.0, 1.0, 0.0);
+  times(2, t - 1.0, 0.0, 1.0);
+  times(3, -1.0 - s, -1.0, 0.0);
   return result;
 }
 

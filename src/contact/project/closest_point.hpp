@@ -20,19 +20,22 @@
 
 namespace abut::contact {
 
-/// Corners and the sides that are free borders.
-struct Patch {
-  std::array<Vec3, 4> x;
-  bool triangle = false;
-  std::uint8_t borders = 0;  ///< bit e: side e (corner e to e + 1) is a free border
-};
-
-enum class Feature : std::uint8_t { face, edge, corner };
-
 /// Fraction of a side's length by which a free border is extended.
 inline constexpr double border_strip = 0.2;
 /// Fraction of the strip over which the taper stays 1.
 inline constexpr double border_flat = 0.5;
+/// Strips of a pair that was entered through the front widen with its depth behind the facet, at most by this fraction of a side.
+inline constexpr double border_widening = 0.8;
+
+/// Corners and the sides that are free borders.
+struct Patch {
+  std::array<Vec3, 4> x;
+  bool triangle = false;
+  std::uint8_t borders = 0;     ///< bit e: side e (corner e to e + 1) is a free border
+  double strip = border_strip;  ///< where points are looked for beyond them
+};
+
+enum class Feature : std::uint8_t { face, edge, corner };
 
 struct ClosestPoint {
   Feature feature = Feature::face;
@@ -57,12 +60,14 @@ struct ClosestPoint {
 /// Unit normal at (s, t); zero where the facet is degenerate.
 [[nodiscard]] Vec3 normal_at(const Patch& patch, double s, double t);
 
-/// Taper T(s, t) and its gradient: 1 on the facet, falling to 0 over the strips.
+/// Taper T(s, t; wider) and its gradient: 1 on the facet, falling to 0 over the strips.
 struct Taper {
   double value = 1.0;
   double ds = 0.0, dt = 0.0;
+  double dw = 0.0;
 };
-[[nodiscard]] Taper taper(const Patch& patch, double s, double t);
+/// @param wider  >= 0: the flat part of the strips, and with it their end, lies further out by this fraction of a side
+[[nodiscard]] Taper taper(const Patch& patch, double s, double t, double wider = 0.0);
 
 /// Convergence of the projection in (s, t): |Newton step| below this.
 inline constexpr double projection_tolerance = 1e-13;

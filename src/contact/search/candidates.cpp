@@ -22,7 +22,7 @@ Bounds facet_bounds(const Patch& patch) {
   Bounds box;
   for (const Vec3& corner : patch.x) box.include(corner);
   if (patch.borders != 0) {
-    // A strip leaves the corners' box by at most a tenth of the facet's extent per side and direction.
+    // A strip leaves the corners' box by at most half of its share of the facet's extent per side and direction.
     const Vec3 width = box.high - box.low;
     box.low -= 2.5 * border_strip * width;
     box.high += 2.5 * border_strip * width;

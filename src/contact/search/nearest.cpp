@@ -38,16 +38,17 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   bool held_in_front = false;
   double best_distance = 1e300;
   if (held.facet != no_index && surface.active(held.facet)) {
-    best = signed_measure(surface, held.facet, closest_point(surface.patch(held.facet), x), x);
+    best = signed_measure(surface, held.facet, closest_point(extended(surface, held.facet, held.strip), x), x);
     held_in_front = best.distance >= 0.0;
     best_distance = std::sqrt(best.closest.squared_distance);
   }
   ClosestPoint closest;
   Index facet = no_index;
   const double clock = candidates.clock();
+  const bool wide = held.strip > border_strip;  // the lists' distances are those of the usual strips: none is left out
   double least = best_distance;
   const auto try_entry = [&](Candidates::Entry& entry) {
-    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
+    const ClosestPoint other = closest_point(extended(surface, entry.facet, held.strip), x);
     const double distance = std::sqrt(other.squared_distance);
     entry.due = distance + clock;
     least = std::min(least, distance);
@@ -68,7 +69,8 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
     if (first != nullptr) try_entry(*first);
   }
   for (Candidates::Entry& entry : entries) {
-    if (entry.due - clock > rounding * best_distance || entry.facet == held.facet || &entry == first || !surface.active(entry.facet))
+    if ((!wide && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
+        !surface.active(entry.facet))
       continue;
     try_entry(entry);
   }

@@ -21,6 +21,7 @@ struct Measure {
 struct HeldBy {
   Index facet = no_index;  ///< no_index: a free node
   Vec3 normal;
+  double strip = border_strip;  ///< where it looks beyond free borders
 };
 
 /// Free node: the smallest |distance| among the candidates. Held node: the smallest |distance| among facets that push in
@@ -31,5 +32,12 @@ struct HeldBy {
 
 /// A swept hit: walks from `facet` over neighbours to the closest point that pushes the same way.
 [[nodiscard]] Measure descend_to_nearest(const Side& surface, Index facet, const Vec3& x);
+
+/// Facet f extended beyond its free borders by `strip` of a side.
+[[nodiscard]] inline Patch extended(const Side& surface, Index f, double strip) {
+  Patch patch = surface.patch(f);
+  patch.strip = strip;
+  return patch;
+}
 
 }  // namespace abut::contact

@@ -246,7 +246,7 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
       (gm + hp) + up,                               // + + +   + + + -
       (hm - gm) + wm,                               // - + +   - + - +
   };
-  double* slots = task.slots + static_cast<std::ptrdiff_t>(block) * 256 + lane;
+  double* slots = task.slots + static_cast<std::ptrdiff_t>(block) * task.slot_stride + lane;
   for (int k = 0; k < 8; ++k) {
     N::store(slots + k * 32, f[k].x);
     N::store(slots + k * 32 + 8, f[k].y);
@@ -267,6 +267,7 @@ ABUT_INLINE void brick_step(const SolidTask& task) {
         brick_lanes<false, R>(task, block, lane, sums);
       }
     }
+    add_to_chunk<8>(task, block);
   }
   finish(sums, *task.chunk);
 }

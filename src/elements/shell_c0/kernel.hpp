@@ -136,7 +136,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   double* state = args.state + block * static_cast<std::size_t>(s.variables * shell_lanes) + lane;
   const double* constants = args.constants + block * (shell_constant::count * shell_lanes) + lane;
   const std::int32_t* nodes = args.nodes + block * (3 * shell_lanes) + lane;
-  double* slots = args.slots + block * (3 * 8 * shell_lanes) + lane;
+  double* slots = args.slots + block * args.slot_stride + lane;
   const T zero = T(0.0), one = T(1.0);
 
   // gather

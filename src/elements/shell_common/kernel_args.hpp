@@ -29,7 +29,8 @@ struct ShellKernelArgs {
   double* state = nullptr;              ///< #B by variables by 8
   const std::int32_t* nodes = nullptr;  ///< #B by nodes per element by 8; each 3 times the node's index
   const double* constants = nullptr;    ///< #B by shell_constant::count by 8
-  double* slots = nullptr;              ///< group.hpp, SlotLayout
+  double* slots = nullptr;              ///< of block 0; group.hpp, SlotLayout
+  std::size_t slot_stride = 0;          ///< from block to block; 0: every block uses the same
   double* steps = nullptr;              ///< #B by 8: element step, 1e30 for elements that are off
 };
 

@@ -7,10 +7,34 @@
 #include <string>
 
 #include "elements/shell_common/setup.hpp"
+#include "simd/isa.hpp"
 
 namespace abut::elements {
 
+// add_block.isa.cpp, once per instruction set
+#define ABUT_DECLARE_ADD(isa)                                            \
+  namespace isa {                                                        \
+  void add_quad_block(const double*, const std::uint16_t*, double*);     \
+  void add_triangle_block(const double*, const std::uint16_t*, double*); \
+  }
+ABUT_DECLARE_ADD(sse2)
+ABUT_DECLARE_ADD(avx2)
+ABUT_DECLARE_ADD(avx512)
+#undef ABUT_DECLARE_ADD
+
 namespace {
+
+auto choose_add_block(bool quad) {
+  switch (simd::active_isa()) {
+    case simd::Isa::avx512:
+      return quad ? avx512::add_quad_block : avx512::add_triangle_block;
+    case simd::Isa::avx2:
+      return quad ? avx2::add_quad_block : avx2::add_triangle_block;
+    case simd::Isa::sse2:
+      break;
+  }
+  return quad ? sse2::add_quad_block : sse2::add_triangle_block;
+}
 
 /// Stress of a shell's frame (xx yy xy yz zx, no zz) in global axes: xx yy zz xy yz zx.
 std::array<double, 6> global_stress(const ShellFrame& f, double xx, double yy, double xy, double yz, double zx) {
@@ -99,7 +123,12 @@ void ShellGroup::set_up() {
 
   nodes_.resize(blocks * per_element_ * lanes);
   steps_.assign(blocks * lanes, 1e30);
-  results_.resize(blocks);
+  std::vector<Index> flat;
+  flat.reserve(elements_.size() * per_element_);
+  for (Index e = 0; e < size(); ++e) flat.insert(flat.end(), nodes(e).begin(), nodes(e).end());
+  chunks_ = ChunkTable(flat, static_cast<int>(per_element_), layout_.components);
+  add_block_ = choose_add_block(per_element_ == 4);
+  results_.resize(static_cast<std::size_t>(chunks_.size()));
   state_.assign(blocks * static_cast<std::size_t>(section_->variables) * lanes, 0.0);
   for (Index e = 0; e < padded; ++e) {
     const Index source = std::min(e, size() - 1);
@@ -118,18 +147,33 @@ void ShellGroup::set_up() {
   }
 }
 
-void ShellGroup::initial_masses(std::span<double> slots) const {
-  std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
+void ShellGroup::add_masses(std::span<double> mass, std::span<double> inertia) const {
   for (Index e = 0; e < size(); ++e) {
-    for (int k = 0; k < layout_.nodes_per_element; ++k) {
-      const double mass = constant(e, shell_constant::mass + k);
-      slots[layout_.at(e, k, 0)] = mass;
-      slots[layout_.at(e, k, 1)] = mass * constant(e, shell_constant::inertia);
+    const std::span<const Index> n = nodes(e);
+    for (std::size_t k = 0; k < n.size(); ++k) {
+      const double share = constant(e, shell_constant::mass + static_cast<int>(k));
+      mass[static_cast<std::size_t>(n[k])] += share;
+      inertia[static_cast<std::size_t>(n[k])] += share * constant(e, shell_constant::inertia);
     }
   }
 }
 
-void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, BlockResult& result) {
+void ShellGroup::run_chunk(ShellKernelArgs args, const StepOutput& out, std::size_t chunk) {
+  alignas(64) double scratch[4 * 8 * lanes];  // slots of one block, when nobody asks for them all
+  const std::size_t block_slots = per_element_ * 8 * lanes;
+  args.slots = out.slots != nullptr ? out.slots + layout_.offset : scratch;
+  args.slot_stride = out.slots != nullptr ? block_slots : 0;
+  double* sums = out.sums != nullptr ? out.sums + chunks_.sum_offset(chunk) : nullptr;
+  if (sums != nullptr) std::fill_n(sums, chunks_.nodes(chunk).size() * 8, 0.0);
+  ChunkResult& result = results_[chunk];
+  result = {};
+  for (std::size_t b = chunks_.first_block(chunk); b < chunks_.end_block(chunk); ++b) {
+    run_block(args, b, result);
+    if (sums != nullptr) add_block_(args.slots + b * args.slot_stride, chunks_.positions() + b * per_element_ * lanes, sums);
+  }
+}
+
+void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, ChunkResult& result) {
   const auto stride = static_cast<std::size_t>(section_->variables) * lanes;
   const double* state = state_.data() + block * stride;
   const double* off = state + shell_state::off * lanes;
@@ -143,8 +187,7 @@ void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, Block
   if (in_.step_action == model::StepControl::Action::remove || in_.step_action == model::StepControl::Action::constant) {
     act_on_small_steps(args, block);
   }
-  result = {};
-  result.removed = before - count_on();
+  result.removed += before - count_on();
   const double* step = steps_.data() + block * lanes;
   const double* membrane = state + shell_state::membrane_energy * lanes;
   const double* bending = state + shell_state::bending_energy * lanes;
@@ -152,7 +195,7 @@ void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, Block
   for (int l = 0; l < lanes; ++l) {
     if (step[l] < result.step) {
       result.step = step[l];
-      result.lane = l;
+      result.element = static_cast<Index>(block * lanes) + l;
     }
     result.internal += membrane[l] + bending[l];
     result.hourglass += hourglass[l];
@@ -171,16 +214,16 @@ void ShellGroup::act_on_small_steps(const ShellKernelArgs& args, std::size_t blo
     step[l] = 1e30;
     variable(element, shell_state::off) = 0.0;
     for (int i = shell_state::f; i < shell_state::membrane_energy; ++i) variable(element, i) = 0.0;
-    double* slots = args.slots + block * per_element_ * 8 * lanes + l;
+    double* slots = args.slots + block * args.slot_stride + l;
     for (std::size_t i = 0; i < per_element_ * 8; ++i) slots[i * lanes] = 0.0;
   }
 }
 
-GroupResult ShellGroup::step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) {
+GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) {
   GroupResult total;
   last_x_ = in.x;
   if (!section_) {
-    std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
+    if (out.slots != nullptr) std::fill_n(out.slots + layout_.offset, layout_.size(), 0.0);
     return total;
   }
   ShellKernelArgs args;
@@ -192,29 +235,27 @@ GroupResult ShellGroup::step(const StepInput& in, std::span<double> slots, paral
   args.state = state_.data();
   args.nodes = nodes_.data();
   args.constants = constants_.data();
-  args.slots = slots.data() + layout_.offset;
   args.steps = steps_.data();
-  constexpr std::size_t grain = 16;  // blocks, about 10 us
-  pool.for_ranges(results_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) run_block(args, b, results_[b]);
+  pool.for_ranges(results_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) run_chunk(args, out, c);
   });
-  for (std::size_t b = 0; b < results_.size(); ++b) {
-    const BlockResult& r = results_[b];
+  for (std::size_t c = 0; c < results_.size(); ++c) {
+    const ChunkResult& r = results_[c];
     if (r.step * in_.step_scale < total.step) {
       total.step = r.step * in_.step_scale;
-      total.step_element = static_cast<Index>(b * lanes) + r.lane;
+      total.step_element = r.element;
     }
     total.internal_energy += r.internal;
     total.hourglass_energy += r.hourglass;
     total.removed += r.removed;
-    if (total.bad_element == no_index && !std::isfinite(r.internal + r.hourglass)) total.bad_element = first_bad_element(b);
+    if (total.bad_element == no_index && !std::isfinite(r.internal + r.hourglass)) total.bad_element = first_bad_element(c);
   }
   return total;
 }
 
-Index ShellGroup::first_bad_element(std::size_t block) const {
-  const auto begin = static_cast<Index>(block * lanes);
-  for (Index e = begin; e < std::min(begin + lanes, size()); ++e) {
+Index ShellGroup::first_bad_element(std::size_t chunk) const {
+  const auto begin = static_cast<Index>(chunks_.first_block(chunk) * lanes);
+  for (Index e = begin; e < std::min(static_cast<Index>(chunks_.end_block(chunk) * lanes), size()); ++e) {
     if (!std::isfinite(element_energy(e))) return e;
   }
   return begin;

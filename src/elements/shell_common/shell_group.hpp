@@ -31,8 +31,8 @@ class ShellGroup : public Group {
   [[nodiscard]] Family family() const final { return section_ ? family_ : Family::inert; }
   [[nodiscard]] model::ElementKind kind() const final { return kind_; }
   [[nodiscard]] std::span<const Index> nodes(Index element) const final;
-  void initial_masses(std::span<double> slots) const final;
-  GroupResult step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) final;
+  void add_masses(std::span<double> mass, std::span<double> inertia) const final;
+  GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) final;
   /// @param rigid one flag per element of the group (group-local index)
   void set_rigid(std::span<const std::uint8_t> rigid) final;
   [[nodiscard]] ElementOutput output(Index element) const final;
@@ -63,17 +63,19 @@ class ShellGroup : public Group {
   int at_frozen_flag_ = -1;              ///< variable that asks for small strain (1/2) or has it (1)
 
  private:
-  struct BlockResult {
+  struct ChunkResult {
     double step = 1e30, internal = 0.0, hourglass = 0.0;
-    int lane = 0, removed = 0;
+    Index element = 0, removed = 0;
   };
+  using AddBlock = void (*)(const double* slots, const std::uint16_t* positions, double* sums);
 
   [[nodiscard]] double constant(Index element, int which) const;
   [[nodiscard]] double initial_thickness(Index element) const;
   [[nodiscard]] std::array<Vec3, 4> corners(Index element, const Vec3* x) const;
-  void run_block(const ShellKernelArgs& args, std::size_t block, BlockResult& result);
+  void run_chunk(ShellKernelArgs args, const StepOutput& out, std::size_t chunk);
+  void run_block(const ShellKernelArgs& args, std::size_t block, ChunkResult& result);
   void act_on_small_steps(const ShellKernelArgs& args, std::size_t block);
-  [[nodiscard]] Index first_bad_element(std::size_t block) const;
+  [[nodiscard]] Index first_bad_element(std::size_t chunk) const;
 
   Family family_;
   model::ElementKind kind_;
@@ -83,7 +85,8 @@ class ShellGroup : public Group {
   std::vector<double> initial_area_;
   std::vector<std::int32_t> nodes_;
   std::vector<double> steps_;
-  std::vector<BlockResult> results_;
+  std::vector<ChunkResult> results_;
+  AddBlock add_block_ = nullptr;
   const Vec3* last_x_ = nullptr;
 };
 

@@ -137,7 +137,8 @@ void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share
   const auto n = static_cast<std::size_t>(nodes_per_element_);
   block_offsets_.assign(padded * n, 0);
   state_.assign(padded * static_cast<std::size_t>(c.fields), 0.0);
-  chunks_.resize((static_cast<std::size_t>(layout_.blocks) + blocks_per_chunk - 1) / blocks_per_chunk);
+  chunks_ = ChunkTable(element_nodes_, nodes_per_element_, layout_.components);
+  results_.resize(static_cast<std::size_t>(chunks_.size()));
 
   std::vector<Vec3> corners(n);
   const auto point = materials::initial_state(c.plastic);
@@ -184,39 +185,44 @@ std::span<const Index> SolidGroup::nodes(Index element) const {
   return {element_nodes_.data() + static_cast<std::size_t>(element) * n, n};
 }
 
-void SolidGroup::initial_masses(std::span<double> slots) const {
-  std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>(layout_.offset), layout_.size(), 0.0);
+void SolidGroup::add_masses(std::span<double> mass, std::span<double> /*inertia*/) const {
   for (Index e = 0; e < size(); ++e) {
     for (int k = 0; k < nodes_per_element_; ++k) {
       const double share = nodes_per_element_ == 4 ? at(e, config_.share_field + k) : 0.125;
-      slots[layout_.at(e, k, 0)] = share * at(e, f_mass);
+      mass[static_cast<std::size_t>(nodes(e)[static_cast<std::size_t>(k)])] += share * at(e, f_mass);
     }
   }
 }
 
-GroupResult SolidGroup::step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) {
+GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) {
   SolidTask base;
   base.config = &config_;
   base.x = &in.x->x;
   base.v = &in.v->x;
   base.offsets = block_offsets_.data();
   base.state = state_.data();
-  base.slots = slots.data() + layout_.offset;
   base.dt = in.dt;
-  const SolidTask* shared = &base;
-  pool.for_ranges(chunks_.size(), 1, [this, shared](std::size_t begin, std::size_t end) {
-    SolidTask task = *shared;
+  base.positions = chunks_.positions();
+  pool.for_ranges(results_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    alignas(64) double scratch[8 * 4 * lanes];  // slots of one block, when nobody asks for them all
+    SolidTask task = base;
+    task.slots = out.slots != nullptr ? out.slots + layout_.offset : scratch;
+    task.slot_stride = out.slots != nullptr ? nodes_per_element_ * 4 * lanes : 0;
     for (std::size_t i = begin; i < end; ++i) {
-      task.first = static_cast<std::int32_t>(i) * blocks_per_chunk;
-      task.last = std::min(task.first + blocks_per_chunk, layout_.blocks);
-      task.chunk = &chunks_[i];
+      task.first = static_cast<std::int32_t>(chunks_.first_block(i));
+      task.last = static_cast<std::int32_t>(chunks_.end_block(i));
+      task.chunk = &results_[i];
+      if (out.sums != nullptr) {
+        task.sums = out.sums + chunks_.sum_offset(i);
+        std::fill_n(task.sums, chunks_.nodes(i).size() * 4, 0.0);
+      }
       kernel_(task);
     }
   });
 
   GroupResult result;
   double inverse_step = 0.0;
-  for (const SolidChunk& chunk : chunks_) {
+  for (const SolidChunk& chunk : results_) {
     result.internal_energy += chunk.energy;
     result.hourglass_energy += chunk.hourglass;
     result.removed_energy += chunk.removed_energy;

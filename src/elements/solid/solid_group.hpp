@@ -21,8 +21,8 @@ struct SolidGeometry {
 class SolidGroup : public Group {
  public:
   [[nodiscard]] std::span<const Index> nodes(Index element) const override;
-  void initial_masses(std::span<double> slots) const override;
-  GroupResult step(const StepInput& in, std::span<double> slots, parallel::ThreadPool& pool) override;
+  void add_masses(std::span<double> mass, std::span<double> inertia) const override;
+  GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) override;
   /// @param rigid one flag per group-local element
   void set_rigid(std::span<const std::uint8_t> rigid) override;
   [[nodiscard]] ElementOutput output(Index element) const override;
@@ -58,8 +58,7 @@ class SolidGroup : public Group {
   SolidKernel kernel_ = nullptr;
   std::vector<std::int32_t> block_offsets_;
   std::vector<double> state_;
-  std::vector<double> mass_share_;  ///< #E by nodes_per_element; empty = equal
-  std::vector<SolidChunk> chunks_;
+  std::vector<SolidChunk> results_;
 };
 
 /// V^(-1/3) for V > 0, without libm.

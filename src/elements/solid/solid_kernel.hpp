@@ -20,6 +20,7 @@
 //   h <= sqrt(2 m_I/sum K_I) at every node then satisfies h^2 K + 2 h C <= 4 M for the assembled system.
 #pragma once
 
+#include "elements/add_block.hpp"
 #include "elements/solid/solid_layout.hpp"
 #include "materials/solid_law.hpp"
 #include "simd/gather.hpp"
@@ -329,6 +330,14 @@ ABUT_INLINE void book(const SolidConfig& c, const Lanes<R>& state, std::int32_t 
   const auto better = y > best;
   N::store(sums.inverse_step + lane, simd::select(better, y, best));
   N::store(sums.where + lane, simd::select(better, R(static_cast<double>(block)), N::load(sums.where + lane)));
+}
+
+/// Adds the forces of a block to the sums of its chunk, where they are asked for.
+template <int corners>
+ABUT_INLINE void add_to_chunk(const SolidTask& task, std::int32_t block) {
+  if (task.sums == nullptr) return;
+  add_block<corners, 4>(task.slots + static_cast<std::ptrdiff_t>(block) * task.slot_stride,
+                        task.positions + static_cast<std::ptrdiff_t>(block) * (corners * 8), task.sums);
 }
 
 ABUT_INLINE void finish(const ChunkSums& sums, SolidChunk& chunk) {

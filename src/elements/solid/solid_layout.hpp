@@ -2,6 +2,7 @@
 // the kernels are built per instruction set and include no standard library.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "materials/solid_law.hpp"
@@ -32,7 +33,6 @@ enum SolidField : int {
 
 inline constexpr int frame_fields = 9;             ///< e1, e2, e3 of co-rotational bricks, for output
 inline constexpr int hourglass_force_fields = 12;  ///< old generalised hourglass forces (trapezoidal energy)
-inline constexpr int blocks_per_chunk = 32;        ///< a chunk is the unit of threads and of the fixed sum tree
 
 /// Choices and constants of a group.
 struct SolidConfig {
@@ -66,7 +66,10 @@ struct SolidTask {
   const double* v = nullptr;              ///< #N by 3 velocities at n - 1/2
   const std::int32_t* offsets = nullptr;  ///< 3 * node at (block * nodes_per_element + k) * 8 + l
   double* state = nullptr;
-  double* slots = nullptr;  ///< layout of SlotLayout, 4 components
+  double* slots = nullptr;         ///< of block 0; layout of SlotLayout, 4 components
+  std::ptrdiff_t slot_stride = 0;  ///< from block to block; 0: every block uses the same
+  const std::uint16_t* positions = nullptr;
+  double* sums = nullptr;  ///< of the chunk (chunks.hpp), or null
   double dt = 0.0;
   std::int32_t first = 0, last = 0;
   SolidChunk* chunk = nullptr;

@@ -100,7 +100,7 @@ ABUT_INLINE void tetra_lanes(const SolidTask& task, std::int32_t block, int lane
   const R vol = simd::select(acts, in.volume, zero);
   const Matrix<R> t{{vol * s.xx, vol * s.xy, vol * s.zx}, {vol * s.xy, vol * s.yy, vol * s.yz}, {vol * s.zx, vol * s.yz, vol * s.zz}};
   const Vec<R> f[4] = {apply(t, p0), apply(t, p1), apply(t, p2), apply(t, p3)};
-  double* slots = task.slots + static_cast<std::ptrdiff_t>(block) * 128 + lane;
+  double* slots = task.slots + static_cast<std::ptrdiff_t>(block) * task.slot_stride + lane;
   for (int k = 0; k < 4; ++k) {
     N::store(slots + k * 32, f[k].x);
     N::store(slots + k * 32 + 8, f[k].y);
@@ -115,6 +115,7 @@ ABUT_INLINE void tetra_step(const SolidTask& task) {
   ChunkSums sums;
   for (std::int32_t block = task.first; block < task.last; ++block) {
     for (int lane = 0; lane < 8; lane += simd::NumberTraits<R>::width) tetra_lanes<R>(task, block, lane, sums);
+    add_to_chunk<4>(task, block);
   }
   finish(sums, *task.chunk);
 }

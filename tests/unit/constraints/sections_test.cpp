@@ -23,8 +23,8 @@ class FilledGroup : public elements::Group {
   [[nodiscard]] elements::Family family() const override { return elements::Family::inert; }
   [[nodiscard]] std::span<const Index> nodes(Index e) const override { return nodes_[static_cast<std::size_t>(e)]; }
   [[nodiscard]] model::ElementKind kind() const override { return kind_; }
-  void initial_masses(std::span<double>) const override {}
-  elements::GroupResult step(const elements::StepInput&, std::span<double>, parallel::ThreadPool&) override { return {}; }
+  void add_masses(std::span<double>, std::span<double>) const override {}
+  elements::GroupResult step(const elements::StepInput&, const elements::StepOutput&, parallel::ThreadPool&) override { return {}; }
   void set_rigid(std::span<const std::uint8_t>) override {}
   [[nodiscard]] elements::ElementOutput output(Index) const override { return {}; }
   [[nodiscard]] bool active(Index) const override { return true; }

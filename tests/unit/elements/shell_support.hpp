@@ -128,9 +128,9 @@ struct Runner {
     x = model->node_x;
     v.assign(x.size(), {});
     w.assign(x.size(), {});
-    group->initial_masses(slots);
-    mass = sum(0);
-    inertia = sum(1);
+    mass.assign(x.size(), 0.0);
+    inertia.assign(x.size(), 0.0);
+    group->add_masses(mass, inertia);
   }
 
   [[nodiscard]] std::vector<double> sum(int component) const {
@@ -151,7 +151,7 @@ struct Runner {
   }
 
   GroupResult step(double dt) {
-    const GroupResult r = group->step({x.data(), v.data(), w.data(), 0.0, dt}, slots, pool);
+    const GroupResult r = group->step({x.data(), v.data(), w.data(), 0.0, dt}, {nullptr, slots.data()}, pool);
     f = sum3(0);
     stiffness = sum(3);
     m = sum3(4);

@@ -97,8 +97,7 @@ class SolidBody {
     in.step_action = setup.action;
     group = elements.front().size() == 8 ? make_brick8(in) : make_tetra4(in);
     slots.assign(group->layout().size(), -1.0);
-    group->initial_masses(slots);
-    for_slots([this](Index node, std::size_t at) { m[static_cast<std::size_t>(node)] += slots[at]; });
+    group->add_masses(m, {});
   }
 
   /// Steps the group over `dt` with the present x and v; f becomes the sum of internal forces, k of the stiffnesses.
@@ -108,7 +107,7 @@ class SolidBody {
     in.v = v.data();
     in.dt = dt;
     in.time = time;
-    result = group->step(in, slots, pool);
+    result = group->step(in, {nullptr, slots.data()}, pool);
     std::fill(f.begin(), f.end(), Vec3{});
     std::fill(k.begin(), k.end(), 0.0);
     for_slots([this](Index node, std::size_t at) {

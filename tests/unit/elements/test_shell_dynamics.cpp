@@ -382,6 +382,7 @@ struct Arrays {
     a.nodes = nodes.data();
     a.constants = constants.data();
     a.slots = slots.data();
+    a.slot_stride = slots.size() / blocks;
     a.steps = steps.data();
     return a;
   }
@@ -485,7 +486,7 @@ TEST(ShellWidths, ThreadsDoNotMatter) {
     Runner r(s, true);
     parallel::ThreadPool pool(threads);
     GroupResult g;
-    for (int i = 0; i < 3; ++i) g = r.group->step({r.x.data(), v.data(), w.data(), 0.0, 1e-3}, r.slots, pool);
+    for (int i = 0; i < 3; ++i) g = r.group->step({r.x.data(), v.data(), w.data(), 0.0, 1e-3}, {nullptr, r.slots.data()}, pool);
     const auto h = r.group->history();
     std::vector<double> all(h[0].begin(), h[0].end());
     all.insert(all.end(), r.slots.begin(), r.slots.end());

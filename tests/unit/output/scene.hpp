@@ -80,8 +80,8 @@ class FakeGroup final : public elements::Group {
   elements::Family family() const override { return elements::Family::inert; }
   std::span<const Index> nodes(Index) const override { return {}; }
   model::ElementKind kind() const override { return kind_; }
-  void initial_masses(std::span<double>) const override {}
-  elements::GroupResult step(const elements::StepInput&, std::span<double>, parallel::ThreadPool&) override { return {}; }
+  void add_masses(std::span<double>, std::span<double>) const override {}
+  elements::GroupResult step(const elements::StepInput&, const elements::StepOutput&, parallel::ThreadPool&) override { return {}; }
   void set_rigid(std::span<const std::uint8_t>) override {}
   elements::ElementOutput output(Index element) const override {
     elements::ElementOutput o = expected(elements_[static_cast<std::size_t>(element)], scale);

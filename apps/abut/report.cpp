@@ -1,0 +1,29 @@
+// `abut report`: hands the run folder and the embedded page to the report stage.
+#include <fmt/core.h>
+
+#include "commands.hpp"
+#include "report/report.hpp"
+#include "viewer_page.hpp"
+
+namespace abut::app {
+
+int report_command(const ReportArguments& arguments) {
+  const std::string_view page = viewer_page();
+  if (page.empty()) {
+    fmt::print(stderr,
+               "abut: this abut was built without the report, because Node.js and npm were not there (docs/guide/report.md says how to "
+               "build it)\n");
+    return 1;
+  }
+  std::filesystem::path target = arguments.output;
+  if (target.empty()) target = arguments.run / "report.html";
+  const report::Written w =
+      report::write_report(arguments.run, target, page, arguments.all_fields ? report::Fields::all : report::Fields::automatic);
+  if (!arguments.quiet) {
+    fmt::print("{}: {} states, {} elements, {} faces shown, {:.1f} MB; open it in a browser\n", target.string(), w.states, w.elements,
+               w.faces, static_cast<double>(w.bytes) / 1e6);
+  }
+  return 0;
+}
+
+}  // namespace abut::app

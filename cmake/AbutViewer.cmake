@@ -1,0 +1,51 @@
+# The report's page: TypeScript in viewer/, bundled by esbuild (Node.js) and embedded in the program. Without Node.js and npm,
+# or when npm cannot fetch the locked packages, the program is built without it and `abut report` says so.
+set(ABUT_VIEWER AUTO CACHE STRING "Build the report's page: AUTO (when Node.js is there), ON (or fail), OFF")
+set(ABUT_VIEWER_READY OFF)
+
+if(NOT ABUT_VIEWER STREQUAL "OFF")
+  find_program(ABUT_NODE NAMES node nodejs)
+  find_program(ABUT_NPM NAMES npm)
+  set(reason "")
+  set(viewer ${PROJECT_SOURCE_DIR}/viewer)
+  set(installed ${viewer}/node_modules/.package-lock.json)
+  if(NOT ABUT_NODE)
+    set(reason "there is no Node.js")
+  elseif(NOT EXISTS ${installed} OR ${viewer}/package-lock.json IS_NEWER_THAN ${installed})
+    if(NOT ABUT_NPM)
+      set(reason "there is no npm")
+    else()
+      message(STATUS "viewer: npm ci")
+      execute_process(COMMAND ${ABUT_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
+        WORKING_DIRECTORY ${viewer} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE said)
+      if(failed)
+        set(reason "npm could not fetch the locked packages: ${said}")
+      else()
+        file(TOUCH ${installed})
+      endif()
+    endif()
+  endif()
+  if(reason STREQUAL "")
+    set(ABUT_VIEWER_READY ON)
+  elseif(ABUT_VIEWER STREQUAL "ON")
+    message(FATAL_ERROR "The report's page cannot be built: ${reason}")
+  else()
+    message(WARNING "abut is built without the report: ${reason}")
+  endif()
+endif()
+
+function(abut_embed_viewer target)
+  set(source ${PROJECT_BINARY_DIR}/viewer/viewer_page.cpp)
+  if(ABUT_VIEWER_READY)
+    file(GLOB_RECURSE inputs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/viewer/src/*)
+    add_custom_command(OUTPUT ${source} ${PROJECT_BINARY_DIR}/viewer/page.html
+      COMMAND ${ABUT_NODE} build.mjs ${PROJECT_BINARY_DIR}/viewer
+      WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/viewer
+      DEPENDS ${inputs} ${PROJECT_SOURCE_DIR}/viewer/build.mjs ${PROJECT_SOURCE_DIR}/viewer/package-lock.json
+      COMMENT "Bundling the report's page" VERBATIM)
+  else()
+    file(WRITE ${source} "#include \"viewer_page.hpp\"\nstd::string_view abut::app::viewer_page() { return {}; }\n")
+  endif()
+  target_sources(${target} PRIVATE ${source})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/abut)
+endfunction()

@@ -1,0 +1,238 @@
+#!/usr/bin/env python3
+"""Runs the code of the documentation: every fenced block of README.md, CONTRIBUTING.md, docs/ and examples/README.md.
+
+usage: check_docs_code.py [--abut PROGRAM] [--library FILE] [--only PAGE ...] [--list]
+
+What a block is follows from its info string and from a comment right above it, and no block is passed over:
+
+  console        lines that start with "$ " are run; what stands below each must be what it prints. "..." stands for anything,
+                 in a line or as a line of its own.
+  sh, bash       run from the first to the last line; must succeed
+  python         run; must succeed
+  cpp            compiled and linked with abut::contact, and run
+  text, none     a drawing or a form; must not contain commands
+
+  <!-- code: output -->            what the block above printed (same rules as console)
+  <!-- code: excerpt of FILE -->   not run, but every line stands in FILE in this order ("..." skips lines; indentation does not count)
+  <!-- code: fails -->             the commands of the block end with an error, as the page says
+  <!-- code: by hand, REASON -->   not run here; every program that it starts must exist in the repository or be named in KNOWN
+
+The blocks of a page share one temporary folder, which has the repository's examples/ and scripts/; abut is on the PATH. Blocks "by hand" are listed.
+Exit status 1 if a block does not do what it says. Standard library only.
+"""
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = ["README.md", "CONTRIBUTING.md", "examples/README.md"]
+KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "man", "source", "xdg-open", "firefox", "bench/run", "export"}
+LIMIT = 300  # seconds for one block
+
+
+class Block:
+    def __init__(self, page, line, language, directive, text):
+        self.page, self.line, self.language, self.directive, self.text = page, line, language, directive, text
+
+    @property
+    def where(self):
+        return f"{self.page}:{self.line}"
+
+
+def blocks_of(page, text):
+    lines, k, directive = text.splitlines(), 0, ""
+    while k < len(lines):
+        fence = re.match(r"(\s*)(`{3,}|~{3,})\s*(\w*)", lines[k])
+        comment = re.match(r"\s*<!-- code: (.*?) -->\s*$", lines[k])
+        if fence:
+            indent, mark, language = fence.groups()
+            start = k
+            k += 1
+            body = []
+            while k < len(lines) and not lines[k].strip().startswith(mark):
+                body.append(lines[k][len(indent):] if lines[k].startswith(indent) else lines[k])
+                k += 1
+            yield Block(page, start + 1, language, directive, "\n".join(body))
+            directive = ""
+        elif comment:
+            directive = comment.group(1)
+        elif lines[k].strip():
+            directive = ""
+        k += 1
+
+
+def pattern_of(line):
+    return ".*".join(re.escape(part) for part in line.rstrip().split("..."))
+
+
+def output_differs(expected, printed):
+    """What is wrong with a printed text, or None. A line "..." stands for any number of lines."""
+    want, got = [line.rstrip() for line in expected.strip("\n").splitlines()], [line.rstrip() for line in printed.strip("\n").splitlines()]
+    position, free = 0, False
+    for line in want:
+        if line.strip() == "...":
+            free = True
+            continue
+        pattern = re.compile(pattern_of(line) + "$")
+        found = next((k for k in range(position, len(got) if free else min(position + 1, len(got))) if pattern.match(got[k])), None)
+        if found is None:
+            actual = got[position] if position < len(got) else "(nothing more)"
+            return f"the page says:  {line}\n    it printed:     {actual}"
+        position, free = found + 1, False
+    if position < len(got) and not free:
+        return f"it printed more than the page says: {got[position]}"
+    return None
+
+
+def commands_of(text):
+    """[(command, expected output)] of a console block; a command goes on after a trailing backslash."""
+    found, lines, k = [], text.splitlines(), 0
+    while k < len(lines):
+        if not lines[k].startswith("$ "):
+            if not found:
+                raise ValueError("a console block starts with a line '$ command'")
+            found[-1][1].append(lines[k])
+            k += 1
+            continue
+        command = lines[k][2:]
+        while command.endswith("\\") and k + 1 < len(lines):
+            k += 1
+            command += "\n" + lines[k]
+        found.append((command, []))
+        k += 1
+    return [(command, "\n".join(output)) for command, output in found]
+
+
+class Runner:
+    def __init__(self, program, library):
+        self.library = library
+        self.environment = {**os.environ, "PATH": f"{Path(program).parent}:{os.environ['PATH']}", "ABUT_SKIP_DEPS": "1", "LC_ALL": "C.UTF-8"}
+        self.printed = ""
+
+    def call(self, command, folder, may_fail=False):
+        done = subprocess.run(command, cwd=folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, errors="replace", timeout=LIMIT)
+        self.printed = done.stdout
+        if (done.returncode != 0) != may_fail:
+            tail = "\n    ".join(done.stdout.splitlines()[-8:])
+            return f"ended with {done.returncode}:\n    {tail}"
+        return None
+
+    def console(self, block, folder, may_fail):
+        printed = ""
+        for command, expected in commands_of(block.text):
+            fault = self.call(["bash", "-e", "-o", "pipefail", "-c", command], folder, may_fail)
+            printed = self.printed
+            fault = fault or output_differs(expected, printed)
+            if fault:
+                return f"$ {command}\n    {fault}"
+        return None
+
+    def compile(self, block, folder):
+        if not self.library:
+            return "needs --library"
+        (folder / "page.cpp").write_text(block.text + "\n")
+        compiler = os.environ.get("CXX", "c++")
+        return self.call([compiler, "-std=c++20", "-Wall", "-Wextra", "-I", str(ROOT / "include"), "page.cpp", str(self.library), "-o", "page"], folder) \
+            or self.call(["./page"], folder)
+
+    def run(self, block, folder):
+        """@returns (kind, fault or None)"""
+        directive, language = block.directive, block.language
+        if directive == "output":
+            return "outputs", output_differs(block.text, self.printed)
+        if directive.startswith("excerpt of "):
+            return "excerpts", excerpt_differs(block.text, ROOT / directive.removeprefix("excerpt of ").strip())
+        if directive.startswith("by hand, "):
+            return "by hand", unknown_program(block)
+        if directive not in ("", "fails"):
+            return "unknown", f"unknown directive: {directive}"
+        may_fail = directive == "fails"
+        if language == "console":
+            return "run", self.console(block, folder, may_fail)
+        if language in ("sh", "bash"):
+            return "run", self.call(["bash", "-e", "-o", "pipefail", "-c", block.text], folder, may_fail)
+        if language == "python":
+            return "run", self.call([sys.executable, "-c", block.text], folder, may_fail)
+        if language == "cpp":
+            return "run", self.compile(block, folder)
+        if language in ("text", ""):
+            command = re.search(r"^(\$ |abut (run|check)|cmake |\./)", block.text, flags=re.M)
+            return "drawings", f"holds a command: {command.group(0)}" if command else None
+        return "unknown", f"a block in '{language}' can only be an excerpt: <!-- code: excerpt of FILE -->"
+
+
+def excerpt_differs(text, path):
+    if not path.is_file():
+        return f"{path.relative_to(ROOT)} does not exist"
+    source, position, free = [line.strip() for line in path.read_text(encoding="utf-8").splitlines()], 0, True
+    for line in filter(None, (line.strip() for line in text.splitlines())):
+        if line in ("...", "// ..."):
+            free = True
+            continue
+        found = next((k for k in range(position, len(source)) if source[k] == line), None)
+        blank = found is not None and all(not entry for entry in source[position:found])
+        if found is None or not (free or blank):
+            return f"{path.relative_to(ROOT)} does not hold this line here: {line}"
+        position, free = found + 1, False
+    return None
+
+
+def unknown_program(block):
+    for line in block.text.splitlines():
+        command = line.removeprefix("$ ").partition("#")[0].split()
+        if block.language == "console" and not line.startswith("$ ") or not command:
+            continue
+        program = command[0]
+        if program not in KNOWN and program != "abut" and not (ROOT / program).is_file() and not program.endswith("bin/abut"):
+            return f"starts {program}, which is not in the repository"
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--abut", default=ROOT / "build/release/bin/abut", type=Path)
+    parser.add_argument("--library", type=Path, default=ROOT / "build/release/libabut_contact.a")
+    parser.add_argument("--only", nargs="*", default=[], help="pages, as paths from the root of the repository")
+    parser.add_argument("--list", action="store_true", help="say what each block is")
+    args = parser.parse_args()
+
+    pages = [ROOT / name for name in PAGES] + sorted((ROOT / "docs").rglob("*.md"))
+    counts, faults, by_hand = {}, [], []
+    runner = Runner(args.abut.resolve(), args.library.resolve() if args.library.is_file() else None)
+    for path in pages:
+        page = path.relative_to(ROOT).as_posix()
+        if args.only and page not in args.only:
+            continue
+        blocks = list(blocks_of(page, path.read_text(encoding="utf-8")))
+        with tempfile.TemporaryDirectory(prefix="abut-docs-") as temporary:
+            folder = Path(temporary)
+            if any(block.language in ("console", "sh", "bash", "python") for block in blocks):
+                shutil.copytree(ROOT / "examples", folder / "examples")
+                shutil.copytree(ROOT / "scripts", folder / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
+                if (ROOT / "tools").is_dir():
+                    shutil.copytree(ROOT / "tools", folder / "tools", ignore=shutil.ignore_patterns("__pycache__"))
+            for block in blocks:
+                try:
+                    kind, fault = runner.run(block, folder)
+                except (ValueError, OSError, subprocess.TimeoutExpired) as error:
+                    kind, fault = "run", str(error)
+                counts[kind] = counts.get(kind, 0) + 1
+                if kind == "by hand":
+                    by_hand.append(f"{block.where}: {block.directive}")
+                if args.list:
+                    print(f"{block.where}: {kind} {block.language}")
+                if fault:
+                    faults.append(f"{block.where}: {fault}")
+    print("\n".join([*faults, *by_hand]))
+    print(", ".join(f"{count} {kind}" for kind, count in sorted(counts.items())) + f": {len(faults)} faults")
+    return 1 if faults or not counts else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,51 @@
+#include "report/history.hpp"
+
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <string_view>
+
+namespace abut::report {
+namespace {
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> out;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    out.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return out;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Single precision holds what a plot shows; numbers beyond its range become NaN, which is a gap in the line.
+bool parse(std::string_view text, float& out) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  const bool fits = value <= std::numeric_limits<float>::max() && value >= -std::numeric_limits<float>::max();
+  out = fits ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN();
+  return true;
+}
+
+}  // namespace
+
+History read_history(const std::filesystem::path& file) {
+  History history;
+  std::ifstream in(file);
+  std::string line;
+  if (!std::getline(in, line)) return history;
+  for (const std::string_view name : split(line)) history.names.emplace_back(name);
+  history.columns.resize(history.names.size());
+  std::vector<float> row(history.names.size());
+  while (std::getline(in, line)) {
+    const std::vector<std::string_view> cells = split(line);
+    bool complete = cells.size() == row.size() && !in.eof();
+    for (std::size_t k = 0; complete && k < row.size(); ++k) complete = parse(cells[k], row[k]);
+    if (!complete) continue;
+    for (std::size_t k = 0; k < row.size(); ++k) history.columns[k].push_back(row[k]);
+  }
+  return history;
+}
+
+}  // namespace abut::report
