@@ -157,21 +157,21 @@ class Deck:
         return {f"{self.name}_0000.rad": "\n".join(self.lines + ["/END"]) + "\n", f"{self.name}_0001.rad": "\n".join(engine) + "\n"}
 
 
-def plate_drop():
+def plate_drop(name="plate_drop", table_cells=16, plate_cells=11, end=1e-3, frames=25):
     """Meshes that do not match, shells of different stiffness and thickness, friction: the everyday case of TYPE3."""
     gap = 0.002
     mesh = Mesh()
     side = 0.24
-    table, table_nodes = mesh.plate(lambda u, w: (side * (u - 0.5), side * (w - 0.5), 0.0), 16, 16)
+    table, table_nodes = mesh.plate(lambda u, w: (side * (u - 0.5), side * (w - 0.5), 0.0), table_cells, table_cells)
     cosine, sine, edge = math.cos(math.radians(20)), math.sin(math.radians(20)), 0.12
 
     def turned(u, w):
         x, y = edge * (u - 0.5), edge * (w - 0.5)
         return cosine * x - sine * y, sine * x + cosine * y, 1.05 * gap
 
-    plate, plate_nodes = mesh.plate(turned, 11, 11, facing_down=True)
+    plate, plate_nodes = mesh.plate(turned, plate_cells, plate_cells, facing_down=True)
 
-    deck = Deck("plate_drop", "steel plate dropped on a clamped aluminium plate",
+    deck = Deck(name, "steel plate dropped on a clamped aluminium plate",
                 ["A steel plate (0.12 m, 2 mm, turned by 20 degrees) falls with 6 m/s, and 1 m/s sideways, on an aluminium plate",
                  "(0.24 m, 4 mm) that is clamped at its border. TYPE3 contact with a gap of 2 mm and friction 0.1."])
     deck.elastic(1, **STEEL)
@@ -190,8 +190,8 @@ def plate_drop():
     deck.contact(1, "plate on plate", 1, 2, friction=0.1, gap=gap)
     deck.history(1, "PART", [1, 2])
     deck.history(2, "INTER", [1])
-    deck.history(3, "NODE", [table_nodes[8][8], plate_nodes[5][5]])
-    return deck.write(end=1e-3, rows=200, frames=25)
+    deck.history(3, "NODE", [table_nodes[table_cells // 2][table_cells // 2], plate_nodes[plate_cells // 2][plate_cells // 2]])
+    return deck.write(end=end, rows=200, frames=frames)
 
 
 def block_on_block():

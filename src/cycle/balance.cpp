@@ -161,11 +161,12 @@ void Cycle::check_minimum_step(const elements::Group& group, const elements::Gro
 void Cycle::fill_contact_fields() {
   std::fill(contact_normal_.begin(), contact_normal_.end(), Vec3{});
   std::fill(contact_tangential_.begin(), contact_tangential_.end(), Vec3{});
-  std::fill(contact_area_.begin(), contact_area_.end(), 0.0);
+  contact_state_.assign(contact_area_.size(), {});
   for (const init::RunInterface& i : interfaces_) {
     i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
-    i.contact.add_nodal_area(state_.x, contact_area_);
+    i.contact.add_nodal_contact(contact_state_);
   }
+  contact_facets_.write(state_.x, interfaces_, contact_area_);
 }
 
 Snapshot Cycle::view() {
@@ -195,6 +196,7 @@ Snapshot Cycle::snapshot() const {
   s.contact_normal = contact_normal_;
   s.contact_tangential = contact_tangential_;
   s.contact_area = contact_area_;
+  s.contact_state = contact_state_;
   s.walls = walls_.results();
   s.bodies = bodies_.results();
   s.sections = sections_.results();

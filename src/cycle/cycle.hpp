@@ -17,6 +17,7 @@
 #include "constraints/rigid_bodies.hpp"
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
+#include "cycle/contact_area.hpp"
 #include "cycle/ledger.hpp"
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
@@ -109,7 +110,9 @@ class Cycle {
   std::vector<bool> recording_;                            // #recordings: begun
   std::vector<double> contact_stiffness_;                  // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
+  ContactArea contact_facets_;
   std::vector<double> contact_area_;
+  std::vector<contact::NodalContact> contact_state_;
   bool releases_ = false;   // some interface asks for IBC
   bool loaded_ = false;     // there are concentrated or pressure loads; else external forces stay zero
   bool totals_wanted_ = false;  // bodies, walls or mass scaling read or change the total forces or the masses after assembly

@@ -46,6 +46,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   walls_.initialise(state_);
   bodies_.initialise(state_);
   interfaces_ = init::make_interfaces(model, options.profile, options.contacts, state_);
+  contact_facets_ = ContactArea(model, interfaces_);
 
   std::vector<std::uint8_t> free_translation(n, 1);
   std::vector<std::uint8_t> free_rotation(n, 1);

@@ -47,6 +47,7 @@ struct Snapshot {
   std::span<const Vec3> contact_normal;         ///< #N by 3, nodal normal contact force of all interfaces
   std::span<const Vec3> contact_tangential;     ///< #N by 3
   std::span<const double> contact_area;         ///< #N, tributary area of contact surfaces (0: not on one)
+  std::span<const contact::NodalContact> contact_state;  ///< #N, of all interfaces
   std::span<const WallResult> walls;
   std::span<const BodyResult> bodies;
   std::span<const SectionResult> sections;

@@ -32,6 +32,8 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path contact_calls(std::int64_t interface) const {
     return directory / (name + "_contact_" + std::to_string(interface) + ".calls");
   }
+  /// Segments of the contact surfaces, as the deck has them.
+  [[nodiscard]] std::filesystem::path contact_surfaces() const { return directory / (name + "_contact.vtu"); }
   [[nodiscard]] std::filesystem::path manifest() const { return directory / "run.json"; }
 };
 

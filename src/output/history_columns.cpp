@@ -310,6 +310,8 @@ class Builder {
       add(fmt::format("GLOBAL/{}MOM", letters[static_cast<std::size_t>(c)]), [c](const Snapshot& s) { return s.balance->momentum[c]; });
     }
     add("GLOBAL/DT", [](const Snapshot& s) { return s.state->times.h_plus; });
+    add("GLOBAL/DTKIND", [](const Snapshot& s) { return static_cast<double>(s.controller.kind); });
+    add("GLOBAL/DTID", [](const Snapshot& s) { return static_cast<double>(s.controller.id); });
   }
 
   void add_request(const model::ThRequest& request) {

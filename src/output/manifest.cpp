@@ -47,7 +47,8 @@ void Manifest::begin(const cycle::Snapshot& first) {
   j["contact"] = contact_json(info_.contact);
   j["files"] = {{"listing", folder_.listing().filename().string()},
                 {"history", folder_.history().filename().string()},
-                {"animation", folder_.animation_index().filename().string()}};
+                {"animation", folder_.animation_index().filename().string()},
+                {"contact_surfaces", folder_.contact_surfaces().filename().string()}};
   head_ = json_text(j);
   j["outcome"] = {{"kind", "running"}};
   write_atomically(folder_.manifest(), json_text(j));

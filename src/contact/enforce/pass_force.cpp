@@ -177,6 +177,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     const Vec3 on_surface = rules.reference_friction
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
+    slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
     held_loads.own_tangential[at(i)] = -on_surface;
     reaction.tangential = share * on_surface;
     totals.tangential -= on_surface;
