@@ -19,6 +19,7 @@ struct RunOptions {
   int threads = 1;
   Profile profile;
   std::optional<contact::Law> interface_law;  ///< overrides the profile's law for every interface
+  bool interfaces = true;                     ///< false: as if the model had none (inspection before a run)
   int hash_every = 0;                         ///< cycles between state hashes, 0 = none
   std::vector<PhaseTime>* phases = nullptr;   ///< run() appends the phases here before the sink's end()
 };
