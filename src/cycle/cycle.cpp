@@ -71,8 +71,8 @@ void Cycle::advance(Sink& sink) {
 void Cycle::decide_outputs() {
   const double t = state_.times.t;
   const model::Controls& c = model_.controls;
-  history_due_ = t >= next_history_;
-  if (history_due_) next_history_ = std::min(c.t_end, std::max(t, next_history_ + c.history_interval));
+  history_due_ = t >= std::min(c.t_end, next_history_);
+  if (t >= next_history_) next_history_ = std::max(t, next_history_ + c.history_interval);
   animation_due_ = t >= next_animation_;
   if (animation_due_) next_animation_ = std::max(t, next_animation_ + c.animation_interval);
   listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
@@ -116,6 +116,7 @@ void Cycle::internal_forces(StepLimits& limits) {
 
 void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
+  record_contacts();
   const state::StepTimes& t = state_.times;
   const contact::HostState host{state_.x, state_.v, state_.mass, t.t, t.h_minus, t.h_bar_old};
   {
@@ -134,6 +135,7 @@ void Cycle::contact_forces(StepLimits& limits) {
     out.ce = r.elastic;
     out.fw = r.friction_work;
     out.dw = r.damping_work;
+    out.sw = r.start_work;
     out.cx = r.made;
     out.in_contact = r.in_contact;
     out.largest_penetration = r.largest_penetration;

@@ -38,6 +38,12 @@ class Ledger {
   /// constraints. @return T* minus its start minus all works so far: zero to rounding
   double close(double kinetic, double constraint_work);
 
+  void persist(state::Archive& a) {
+    a(second_half_);
+    a(works_);
+    a(start_);
+  }
+
  private:
   struct Leaf : KineticLeaf {
     Leaf& operator+=(const Leaf& b);

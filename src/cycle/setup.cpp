@@ -35,6 +35,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       sections_(model, groups_),
       accelerometers_(model, axes_) {
   const auto n = static_cast<std::size_t>(model.node_count());
+  recording_.assign(options.recordings.size(), false);
   contact_stiffness_.assign(n, 0.0);
   contact_normal_.resize(n);
   contact_tangential_.resize(n);
@@ -44,7 +45,8 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
 
   walls_.initialise(state_);
   bodies_.initialise(state_);
-  if (options.interfaces) interfaces_ = init::make_interfaces(model, options.profile, options.interface_law, state_);
+  if (options.interfaces) interfaces_ = init::make_interfaces(model, options.profile, options.contacts, state_);
+  contact_facets_ = ContactArea(model, interfaces_);
 
   std::vector<std::uint8_t> free_translation(n, 1);
   std::vector<std::uint8_t> free_rotation(n, 1);

@@ -47,6 +47,7 @@ struct Snapshot {
   std::span<const Vec3> contact_normal;         ///< #N by 3, nodal normal contact force of all interfaces
   std::span<const Vec3> contact_tangential;     ///< #N by 3
   std::span<const double> contact_area;         ///< #N, tributary area of contact surfaces (0: not on one)
+  std::span<const contact::NodalContact> contact_state;  ///< #N, of all interfaces
   std::span<const WallResult> walls;
   std::span<const BodyResult> bodies;
   std::span<const SectionResult> sections;
@@ -65,6 +66,9 @@ class Sink {
   virtual void begin(const Snapshot& first) = 0;  ///< before the first cycle's output, once
   virtual void cycle(const Snapshot& now) = 0;    ///< every cycle, at step 26
   virtual void end(const Outcome& outcome) = 0;   ///< once, also after a failure
+  /// What a later run needs to go on from here: written after a cycle, read before begin(). begin() is then told of the first
+  /// cycle that goes on.
+  virtual void persist(state::Archive& /*archive*/) {}
 };
 
 }  // namespace abut::cycle
