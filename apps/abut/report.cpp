@@ -1,8 +1,9 @@
 // `abut report`: hands the run folder and the embedded page to the report stage.
+#include "report/report.hpp"
+
 #include <fmt/core.h>
 
 #include "commands.hpp"
-#include "report/report.hpp"
 #include "viewer_page.hpp"
 
 namespace abut::app {
