@@ -25,7 +25,10 @@ constexpr const char* examples = R"(Examples:
   abut check deck_0000.rad                      read, validate, inspect the contacts, summarise; nothing is written
   abut check deck_0000.rad --orient auto --write-deck fixed_0000.rad
                                                 turn contact surfaces to face each other and keep the result
+  abut keywords INTER                           which contact keywords are read, and which of their fields
   abut report INT357                            put the run folder into one page: INT357/report.html
+  abut run deck_0000.rad --record-contact 3     keep all inputs of interface 3 ...
+  abut replay deck/deck_contact_3.calls         ... and compute its forces again from them alone
 
 DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it, and runs that go on from it
 (NAME_0002.rad, ...) follow. A run writes NAME.out (listing), NAME_th.csv (time history), NAME.pvd (animation, open it with
@@ -60,6 +63,14 @@ int main(int argc, char** argv) {
       ->add_option("--checkpoint-every", run.checkpoint_every,
                    "write a checkpoint every N cycles (default: as /RFILE of the deck says); there is one at the end in any case")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  run_app
+      ->add_option("--contact-ramp", run.contact_ramps,
+                   "ID:TIME, push initial penetrations of an interface out over this time from its birth on (press fits)")
+      ->allow_extra_args(false);
+  run_app
+      ->add_option("--record-contact", run.contact_records,
+                   "ID[:FROM[:TO]], write all inputs of an interface to NAME_contact_ID.calls in the run folder, for abut replay")
+      ->allow_extra_args(false);
   run_app->add_option("--hash-every", run.hash_every, "hash the state every N cycles into run.json")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   run_app->add_flag("--timing", run.timing, "print the time spent in each phase");
@@ -99,6 +110,15 @@ int main(int argc, char** argv) {
   report_app->add_flag("--all-fields", report.all_fields, "also what is left out of large runs: components of stress and velocity");
   report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
 
+  ReplayArguments again;
+  CLI::App* replay_app = app.add_subcommand("replay", "make the recorded calls of an interface again and compare every bit");
+  replay_app->add_option("FILE", again.log, "NAME_contact_ID.calls, from abut run --record-contact or from another host")->required();
+  replay_app->add_flag("--steps", again.steps, "print a line per step");
+
+  KeywordsArguments keywords;
+  CLI::App* keywords_app = app.add_subcommand("keywords", "print what abut does with each keyword of a deck, as Markdown");
+  keywords_app->add_option("WORD", keywords.word, "only keywords that contain this word, e.g. INTER");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -111,7 +131,9 @@ int main(int argc, char** argv) {
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
   try {
+    if (keywords_app->parsed()) return keywords_command(keywords);
     if (report_app->parsed()) return report_command(report);
+    if (replay_app->parsed()) return replay_command(again);
     if (run_app->parsed()) return run_command(run);
     return resume_app->parsed() ? resume_command(resume) : check_command(check);
   } catch (const abut::InputError& e) {

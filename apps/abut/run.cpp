@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "contact_choices.hpp"
 #include "findings.hpp"
 
 namespace abut::app {
@@ -79,6 +80,8 @@ int run_command(const RunArguments& arguments) {
   RunSettings settings;
   settings.threads = arguments.threads;
   settings.choices = choices_of(arguments.profile, arguments.interface_law);
+  settings.choices.gradual_starts = gradual_starts(arguments.contact_ramps);
+  settings.recordings = contact_recordings(arguments.contact_records);
   settings.output = arguments.output.empty() ? std::filesystem::path(model.name()) : arguments.output;
   settings.checkpoint_every = arguments.checkpoint_every;
   settings.hash_every = arguments.hash_every;

@@ -29,11 +29,18 @@
 
 namespace abut {
 
+/// A call log of one interface (abut/contact/call_log.hpp): NAME_contact_ID.calls in the run folder, for `abut replay`.
+struct ContactRecording {
+  Id interface_id = 0;
+  double from = 0.0, to = 1e30;  ///< times
+};
+
 struct RunSettings {
   int threads = 0;                               ///< 0: all that the machine has
   Choices choices;                               ///< rule set and contact law
   std::filesystem::path output;                  ///< run folder (docs/guide/outputs.md); empty: no files are written
   int checkpoint_every = 0;                      ///< cycles between checkpoints in the run folder; 0: as /RFILE of the deck says
+  std::vector<ContactRecording> recordings;      ///< each interface at most once; not gone on with by a resumed run
   int hash_every = 0;                            ///< cycles between state hashes in run.json, 0: none
   bool record_history = true;                    ///< keep the time history in memory: history()
   bool progress = false;                         ///< a line about the progress on standard error

@@ -90,6 +90,10 @@ void Cycle::close_balance() {
   b.mass = kinetic.mass + body.mass;
   b.added_mass = time_step_->added_mass();
   b.ie = b.he = b.ce = b.fw = b.dw = b.cx = 0.0;
+  const double started_before = start_work_;
+  start_work_ = 0.0;
+  for (const InterfaceResult& r : interface_results_) start_work_ += r.sw;
+  b.extw += start_work_ - started_before;
   for (const PartResult& p : parts_) {
     b.ie += p.ie;
     b.he += p.he;
@@ -157,11 +161,12 @@ void Cycle::check_minimum_step(const elements::Group& group, const elements::Gro
 void Cycle::fill_contact_fields() {
   std::fill(contact_normal_.begin(), contact_normal_.end(), Vec3{});
   std::fill(contact_tangential_.begin(), contact_tangential_.end(), Vec3{});
-  std::fill(contact_area_.begin(), contact_area_.end(), 0.0);
+  contact_state_.assign(contact_area_.size(), {});
   for (const init::RunInterface& i : interfaces_) {
     i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
-    i.contact.add_nodal_area(state_.x, contact_area_);
+    i.contact.add_nodal_contact(contact_state_);
   }
+  contact_facets_.write(state_.x, interfaces_, contact_area_);
 }
 
 Snapshot Cycle::view() {
@@ -191,6 +196,7 @@ Snapshot Cycle::snapshot() const {
   s.contact_normal = contact_normal_;
   s.contact_tangential = contact_tangential_;
   s.contact_area = contact_area_;
+  s.contact_state = contact_state_;
   s.walls = walls_.results();
   s.bodies = bodies_.results();
   s.sections = sections_.results();

@@ -17,6 +17,7 @@
 #include "constraints/rigid_bodies.hpp"
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
+#include "cycle/contact_area.hpp"
 #include "cycle/ledger.hpp"
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
@@ -68,9 +69,10 @@ class Cycle {
   void check_minimum_step(const elements::Group& group, const elements::GroupResult& result) const;
   void internal_forces(StepLimits& limits);
   void contact_forces(StepLimits& limits);
+  void record_contacts();
   void erode();
   void assemble();
-  void accelerate();
+  void accelerate_again();
   void release_boundary_conditions();
   void book_interfaces();
   void close_balance();
@@ -105,11 +107,15 @@ class Cycle {
   int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;
+  std::vector<bool> recording_;                            // #recordings: begun
   std::vector<double> contact_stiffness_;                  // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
+  ContactArea contact_facets_;
   std::vector<double> contact_area_;
+  std::vector<contact::NodalContact> contact_state_;
   bool releases_ = false;   // some interface asks for IBC
   bool loaded_ = false;     // there are concentrated or pressure loads; else external forces stay zero
+  bool totals_wanted_ = false;  // bodies, walls or mass scaling read or change the total forces or the masses after assembly
   bool rotations_ = false;  // some node has inertia, or can be turned by a condition
 
   std::unique_ptr<TimeStep> time_step_;
@@ -123,6 +129,7 @@ class Cycle {
   double scaled_energy_ = 0.0;
   double removed_energy_ = 0.0;            // held by deleted elements that their groups no longer count
   std::vector<Vec3> edited_v_, edited_w_;  // #N, empty: nothing was changed
+  double start_work_ = 0.0;                // of gradual starts, a part of the external work
   double edited_work_ = 0.0;               // energy that the caller's changes brought in this cycle
   double booked_work_ = 0.0;               // external work of this cycle as the reference program books it
   int beyond_limit_ = 0;                   // cycles in a row with an energy error beyond the limit

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "cycle/node_kernels.hpp"
 #include "parallel/thread_pool.hpp"
 #include "state/state.hpp"
 
@@ -44,10 +45,7 @@ class Ledger {
   }
 
  private:
-  // Terms of one leaf of nodes. Powers of a force f: f.v with the velocity before the kick, and with the one after it.
-  struct Leaf {
-    KineticSums kinetic;
-    double internal_before = 0.0, internal_after = 0.0, contact_before = 0.0, contact_after = 0.0;
+  struct Leaf : KineticLeaf {
     Leaf& operator+=(const Leaf& b);
   };
   std::vector<Leaf> leaves_;

@@ -27,7 +27,7 @@ void persist_controller(state::Archive& a, StepController& controller) {
 
 void persist_result(state::Archive& a, InterfaceResult& r) {
   for (Vec3* v : {&r.normal_force, &r.tangential_force, &r.normal_impulse, &r.tangential_impulse}) a(*v);
-  for (double* d : {&r.ce, &r.fw, &r.dw, &r.cx, &r.largest_penetration}) a(*d);
+  for (double* d : {&r.ce, &r.fw, &r.dw, &r.cx, &r.sw, &r.largest_penetration}) a(*d);
   a(r.in_contact);
   a(r.crossed);
 }
@@ -87,7 +87,8 @@ void Cycle::persist(state::Archive& a) {
     ledger_.persist(a);
     persist_balance(a, balance_);
     persist_controller(a, controller_);
-    for (double* d : {&scaled_energy_, &removed_energy_, &booked_work_, &edited_work_, &worst_error_, &worst_contact_error_}) a(*d);
+    for (double* d : {&scaled_energy_, &removed_energy_, &booked_work_, &start_work_, &edited_work_, &worst_error_, &worst_contact_error_})
+      a(*d);
     a(beyond_limit_);
     a.each(parts_, [&a](PartResult& p) {
       for (double* d : {&p.ie, &p.he, &p.sums.kinetic_energy, &p.sums.rotational_energy, &p.sums.mass}) a(*d);

@@ -141,6 +141,14 @@ class Group {
   [[nodiscard]] virtual std::vector<std::span<double>> history() = 0;
 
  protected:
+  /// Mass and, for shells, rotational inertia that the part sums see at each of chunks().nodes(): kept from one call of part_sums() to
+  /// the next, because there are fewer nodes than corners.
+  struct NodalShares {
+    bool valid = false;
+    std::vector<double> mass, inertia;
+    [[nodiscard]] PartSums sums(const ChunkTable& chunks, std::span<const Vec3> v, std::span<const Vec3> w) const;
+  };
+
   Index part_ = no_index;
   std::vector<Index> elements_;
   SlotLayout layout_;
@@ -158,6 +166,7 @@ struct GroupInput {
   double step_scale = 0.9;    ///< s_e of the Engine deck for this family
   double step_minimum = 0.0;  ///< Tmin with `step_action`
   model::StepControl::Action step_action = model::StepControl::Action::none;
+  bool step_wanted = true;  ///< false: nobody reads GroupResult::step (1e30 then but in the first cycle); saves its roots
 };
 
 [[nodiscard]] std::unique_ptr<Group> make_shell_q4(const GroupInput& in);

@@ -25,6 +25,7 @@
 #include "core/diagnostic.hpp"
 #include "output/animation_fields.hpp"
 #include "output/cell_shape.hpp"
+#include "output/contact_surfaces.hpp"
 #include "output/element_lookup.hpp"
 
 namespace abut::output {
@@ -257,6 +258,7 @@ void Animation::begin(const cycle::Snapshot& first) {
   // checkpoint are written again.
   std::error_code ignored;
   if (opening_ == Opening::fresh) std::filesystem::remove(folder_.animation_index(), ignored);
+  if (opening_ == Opening::fresh) std::filesystem::remove(folder_.contact_surfaces(), ignored);
   if (opening_ == Opening::resumed && !times_.empty()) write_index();
   std::set<std::filesystem::path> kept;
   for (std::size_t k = 0; k < times_.size(); ++k) kept.insert(folder_.animation_state(static_cast<int>(k)).filename());
@@ -271,7 +273,10 @@ void Animation::begin(const cycle::Snapshot& first) {
 
 void Animation::cycle(const cycle::Snapshot& now) {
   if (!now.animation_due) return;
-  if (times_.empty()) create_folder(folder_.animation_folder());
+  if (times_.empty()) {
+    create_folder(folder_.animation_folder());
+    if (!now.model->interfaces.empty()) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*now.model));
+  }
   write_atomically(folder_.animation_state(static_cast<int>(times_.size())), grid_->serialise(now));
   times_.push_back(now.state->times.t);
   write_index();

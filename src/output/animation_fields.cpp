@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -48,6 +49,17 @@ const NodeField pressure_normal{"contact_pressure_normal", 3, [](const Snapshot&
 const NodeField pressure_tangential{"contact_pressure_tangential", 3, [](const Snapshot& s, std::size_t n, double* out) {
                                       write_over_area(s.contact_tangential, s.contact_area, n, out);
                                     }};
+
+// VTK and ParaView show NaN as "no value".
+const NodeField contact_gap{"contact_gap", 1, [](const Snapshot& s, std::size_t n, double* out) {
+                              *out = n < s.contact_state.size() ? s.contact_state[n].opening : std::numeric_limits<double>::quiet_NaN();
+                            }};
+const NodeField contact_penetration{"contact_penetration", 1, [](const Snapshot& s, std::size_t n, double* out) {
+                                      *out = n < s.contact_state.size() ? s.contact_state[n].penetration : 0.0;
+                                    }};
+const NodeField contact_state{"contact_state", 1, [](const Snapshot& s, std::size_t n, double* out) {
+                                *out = n < s.contact_state.size() ? static_cast<double>(s.contact_state[n].state) : 0.0;
+                              }};
 
 const CellField plastic_strain{"plastic_strain", 1, [](const ElementSample& e, double* out) { *out = e.output.plastic_max; }};
 const CellField von_mises{"von_mises", 1, [](const ElementSample& e, double* out) { *out = e.output.von_mises; }};
@@ -123,7 +135,8 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
   const auto& node_fields = selectable_node_fields();
   const auto& cell_fields = selectable_cell_fields();
   AnimationFields fields{
-      {displacement, velocity, contact_force, pressure_normal, pressure_tangential}, {plastic_strain, von_mises, stress}, {}};
+      {displacement, velocity, contact_force, pressure_normal, pressure_tangential, contact_gap, contact_penetration, contact_state},
+      {plastic_strain, von_mises, stress}, {}};
   const auto add_once = [](auto& list, const auto& field) {
     if (std::none_of(list.begin(), list.end(), [&](const auto& f) { return f.name == field.name; })) list.push_back(field);
   };

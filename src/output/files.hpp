@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -28,6 +29,11 @@ struct RunFolder {
   /// Newest checkpoint and the one before it.
   [[nodiscard]] std::filesystem::path checkpoint() const { return directory / (name + ".rst"); }
   [[nodiscard]] std::filesystem::path previous_checkpoint() const { return directory / (name + "_previous.rst"); }
+  [[nodiscard]] std::filesystem::path contact_calls(std::int64_t interface) const {
+    return directory / (name + "_contact_" + std::to_string(interface) + ".calls");
+  }
+  /// Segments of the contact surfaces, as the deck has them.
+  [[nodiscard]] std::filesystem::path contact_surfaces() const { return directory / (name + "_contact.vtu"); }
   [[nodiscard]] std::filesystem::path manifest() const { return directory / "run.json"; }
 };
 

@@ -41,12 +41,14 @@ void Manifest::begin(const cycle::Snapshot& first) {
                    {"threads", info_.threads},
                    {"instruction_set", info_.instruction_set},
                    {"hash_every", info_.hash_every}};
+  for (const init::GradualStart& s : info_.contact_ramps) j["settings"]["contact_ramp"][std::to_string(s.interface_id)] = s.duration;
   j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
   j["findings"] = findings_json(info_.findings);
   j["contact"] = contact_json(info_.contact);
   j["files"] = {{"listing", folder_.listing().filename().string()},
                 {"history", folder_.history().filename().string()},
-                {"animation", folder_.animation_index().filename().string()}};
+                {"animation", folder_.animation_index().filename().string()},
+                {"contact_surfaces", folder_.contact_surfaces().filename().string()}};
   head_ = json_text(j);
   j["outcome"] = {{"kind", "running"}};
   write_atomically(folder_.manifest(), json_text(j));

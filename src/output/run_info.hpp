@@ -32,7 +32,8 @@ struct RunInfo {
   std::string instruction_set;  ///< "sse2", "avx2", "avx512"
   int threads = 1;
   std::string profile = "standard";
-  std::string interface_law;           ///< "stiffening", "constant"; empty: the profile's
+  std::string interface_law;  ///< "stiffening", "constant"; empty: the profile's
+  std::vector<init::GradualStart> contact_ramps;
   int hash_every = 0;                  ///< 0: no state hash
   std::optional<ResumedFrom> resumed;  ///< its files go on, too
   std::vector<std::string> decks;      ///< paths of the Starter and Engine decks and their includes

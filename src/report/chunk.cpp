@@ -90,6 +90,12 @@ Chunk quantised(std::span<const float> values, int components) {
       high = found ? std::max(high, v) : v;
       found = true;
     }
+    if (low < 0.0 && high > 0.0) {
+      // Zero is a value that people look for: one quantum stands for it.
+      const double step = (high - low) / (no_value - 2);
+      low = -std::ceil(-low / step) * step;
+      high = low + step * (no_value - 1);
+    }
     const double scale = high > low ? (no_value - 1) / (high - low) : 0.0;
     for (std::size_t i = c; i < values.size(); i += width) {
       const auto v = static_cast<double>(values[i]);

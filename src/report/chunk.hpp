@@ -25,8 +25,8 @@ struct Chunk {
 /// Value of a q16 chunk that stands for "no value" (NaN).
 inline constexpr std::uint16_t no_value = 65535;
 
-/// 16 bits per value between the smallest and the largest finite value of each component; |error| <= (high - low)/131068.
-/// Values that are not finite become `no_value`.
+/// 16 bits per value between the smallest and the largest finite value of each component; |error| <= (high - low)/131068 with `low` and `high` of the chunk.
+/// Where both signs occur the ends move outward by up to a quantum so that 0 is hit exactly. Values that are not finite become `no_value`.
 /// @param values  #count * components, interleaved (x y z x y z ...)
 [[nodiscard]] Chunk quantised(std::span<const float> values, int components);
 /// @param values  #count * components, interleaved

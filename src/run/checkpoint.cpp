@@ -45,12 +45,21 @@ void run::CheckpointInfo::persist(state::Archive& a) {
     a(run);
     for (bool* flag : {&reference, &orient, &allow_findings}) a(*flag);
     a(law);
+    a.growing(started);
+    a.growing(start_durations);
+    if (started.size() != start_durations.size()) throw state::ArchiveError("the checkpoint is damaged");
     a(hash_every);
     a(checkpoint_every);
     a(cycle);
     a(time);
     a(hash);
   });
+}
+
+std::vector<GradualStart> run::starts_of(const CheckpointInfo& info) {
+  std::vector<GradualStart> starts;
+  for (std::size_t k = 0; k < info.started.size(); ++k) starts.push_back({info.started[k], info.start_durations[k]});
+  return starts;
 }
 
 run::Checkpoint::Checkpoint(const std::filesystem::path& path) : file(output::read_bytes(path)) {
@@ -81,6 +90,10 @@ run::CheckpointInfo Run::Impl::checkpoint_info() {
   i.orient = m.options.orient;
   i.allow_findings = settings.allow_findings;
   i.law = info.interface_law;
+  for (const GradualStart& start : settings.choices.gradual_starts) {
+    i.started.push_back(start.interface_id);
+    i.start_durations.push_back(start.duration);
+  }
   i.hash_every = settings.hash_every;
   i.checkpoint_every = settings.checkpoint_every;
   i.cycle = cycle->state().times.cycle;
@@ -153,8 +166,13 @@ Run Run::load(const Model& model, const std::filesystem::path& checkpoint, const
   try {
     run::Checkpoint from(checkpoint);
     if (from.info.fingerprint != model.fingerprint()) refuse(checkpoint, fmt::format("it is of another model ('{}')", from.info.name));
-    if (from.info.reference != (settings.choices.rules == Rules::reference) || from.info.law != run::law_name(settings.choices)) {
-      refuse(checkpoint, "it was written with another rule set or contact law");
+    const auto same = [](const GradualStart& a, const GradualStart& b) {
+      return a.interface_id == b.interface_id && a.duration == b.duration;
+    };
+    const std::vector<GradualStart> starts = run::starts_of(from.info);
+    if (from.info.reference != (settings.choices.rules == Rules::reference) || from.info.law != run::law_name(settings.choices) ||
+        !std::ranges::equal(starts, settings.choices.gradual_starts, same)) {
+      refuse(checkpoint, "it was written with another rule set, contact law or gradual start");
     }
     return Run(std::make_unique<Impl>(model, settings, &from, false));
   } catch (const state::ArchiveError& error) { refuse(checkpoint, error.what()); }
@@ -224,6 +242,7 @@ Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted
     settings.threads = wanted.threads;
     settings.choices.rules = info.reference ? Rules::reference : Rules::standard;
     settings.choices.interface_law = run::law_of(info.law);
+    settings.choices.gradual_starts = run::starts_of(info);
     settings.output = candidates.folder;
     settings.checkpoint_every = wanted.checkpoint_every >= 0 ? wanted.checkpoint_every : info.checkpoint_every;
     settings.hash_every = info.hash_every;

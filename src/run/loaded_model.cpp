@@ -190,7 +190,7 @@ cycle::RunOptions run::options_of(const Choices& choices, int threads) {
   cycle::RunOptions options;
   options.threads = threads;
   options.profile = profile_of(choices.rules);
-  options.interface_law = choices.interface_law;
+  options.contacts = {choices.interface_law, choices.gradual_starts};
   return options;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ struct CheckpointInfo {
   std::int32_t run = 1;
   bool reference = false, orient = false, allow_findings = false;
   std::string law;
+  std::vector<Id> started;  ///< interfaces with a gradual start
+  std::vector<double> start_durations;
   std::int32_t hash_every = 0, checkpoint_every = 0;
   std::int64_t cycle = 0;
   double time = 0.0;
@@ -36,6 +39,8 @@ struct CheckpointInfo {
 
   void persist(state::Archive& a);
 };
+
+[[nodiscard]] std::vector<GradualStart> starts_of(const CheckpointInfo& info);
 
 /// A checkpoint in memory: whole by its checksum, its first part read.
 struct Checkpoint {
@@ -83,6 +88,7 @@ struct Run::Impl {
   cycle::Sink* watch_ = nullptr;
   cycle::Sink* memory_ = nullptr;  ///< null: not asked for
   std::vector<cycle::Sink*> files_;
+  std::vector<std::ofstream> call_logs_;  ///< per RunSettings::recordings
 };
 
 namespace run {

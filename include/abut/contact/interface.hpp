@@ -98,6 +98,9 @@ class Interface {
   /// Normal and tangential contact force on host nodes are added (output); tributary area of its surfaces' nodes too.
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const;
+  /// Merges what this interface knows of its held nodes into #N values: the smallest opening, the deepest penetration, the larger state.
+  /// At the positions of the last search().
+  void add_nodal_contact(std::span<NodalContact> nodes) const;
   /// Held nodes in contact now (host indices, each once): boundary-condition release (IBC) asks for it.
   [[nodiscard]] std::span<const Index> nodes_in_contact() const;
 

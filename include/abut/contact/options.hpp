@@ -1,8 +1,11 @@
 // Options and results of an interface: value types.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -80,6 +83,23 @@ struct Projection {
   Index node = no_index;
   Vec3 by;
 };
+
+/// What a held node has to do with the other side, for output.
+struct NodalContact {
+  enum class State : std::uint8_t { apart, stick, slip };  ///< without friction every contact slips
+  State state = State::apart;
+  /// Signed distance to the nearest point of the other side less the interface's gap: contact begins at 0, below it the node
+  /// penetrates. NaN: nothing near (beyond what the search looks at), or the node is not held.
+  double opening = std::numeric_limits<double>::quiet_NaN();
+  double penetration = 0.0;  ///< P of a node in contact, else 0
+};
+
+/// Merges what one interface says of a node into what others said.
+inline void merge(NodalContact& into, const NodalContact& from) {
+  into.state = std::max(into.state, from.state);
+  into.penetration = std::max(into.penetration, from.penetration);
+  if (!(into.opening <= from.opening)) into.opening = std::isnan(from.opening) ? into.opening : from.opening;
+}
 
 /// What an interface says after evaluate(). Energies are cumulative since the start, in the host's unit of work.
 struct StepResult {

@@ -199,7 +199,7 @@ double BothSides::offset_of(const Pair& old, double gap, double p) const {
 }
 
 Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, const Vec3& normal, const Vec3& v, double vn,
-                            double pressing, double critical, Sums& sums) const {
+                            double pressing, double critical, Sums& sums, bool& slips) const {
   const Vec3 vt = v - vn * normal;
   const double speed = norm(vt);
   const double pressure = std::abs(pressing) / surface_.facet_area(pair.facet);
@@ -207,6 +207,7 @@ Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, 
   const double a = options_.filter.weight(host.dt_bar_old);
   if (options_.friction_form == BothSidesOptions::Friction::viscous) {
     Vec3 force{};
+    slips = options_.friction_viscosity * critical * speed > limit;
     if (speed > 0.0) force = (std::min(limit, options_.friction_viscosity * critical * speed) / speed) * vt;
     if (options_.filter.acts()) force = a * force + (1.0 - a) * old.friction;
     sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction));
@@ -216,7 +217,7 @@ Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, 
   Vec3 force = old.friction + (pair.spring * host.dt_bar_old) * v;
   force -= dot(force, normal) * normal;
   const double size = norm(force);
-  const bool slips = size > limit;
+  slips = size > limit;
   if (slips) force = (limit / size) * force;
   if (pair.spring > 0.0) {
     const double stored = 0.5 * squared_norm(force) / pair.spring;
@@ -268,7 +269,9 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   const BothSidesForce law = both_sides_force(0.5 * k, gap, p, mass, vn, options_.damping);
   pair.damping = -law.damping * vn;
   const double pressing = law.elastic + pair.damping;
-  if (options_.rubs()) pair.friction = friction_of(host, old, pair, c.normal, v, vn, pressing, law.critical, sums);
+  bool slips = true;
+  if (options_.rubs()) pair.friction = friction_of(host, old, pair, c.normal, v, vn, pressing, law.critical, sums, slips);
+  if (slips) slips_[at(node)] = 1;
 
   const Vec3 normal = pressing * c.normal;
   const std::array<double, 4> share = triangle || !options_.all_pieces ? c.weight : without_hourglass(c.weight);
@@ -303,6 +306,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
 StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   StepResult result;
   in_contact_.clear();
+  slips_.assign(at(held_.node_count()), 0);
   std::fill(normal_.begin(), normal_.end(), Vec3{});
   std::fill(tangential_.begin(), tangential_.end(), Vec3{});
   Sums sums;
@@ -400,6 +404,28 @@ void BothSides::add_nodal_area(std::span<const Vec3>, std::span<double> area) co
   for (Index s = 0; s < surface_.node_count(); ++s) {
     double& a = area[at(surface_.nodes()[at(s)])];
     a = std::max(a, surface_.tributary_area(s));
+  }
+}
+
+void BothSides::add_nodal_contact(std::span<NodalContact> nodes) const {
+  if (!candidates_.made() || slips_.empty()) return;
+  std::vector<Index> scratch;
+  for (Index node = 0; node < held_.node_count(); ++node) {
+    if (gone_[at(node)] != 0 || !held_.node_active(node)) continue;
+    NodalContact c;
+    for (const Index facet : facets_of(candidates_, node, scratch)) {
+      const double distance = std::sqrt(closest_point(surface_.patch(facet), held_.x()[at(node)]).squared_distance);
+      const double opening = distance - pair_gap(node, facet);
+      if (!(c.opening <= opening)) c.opening = opening;
+    }
+    merge(nodes[at(held_.nodes()[at(node)])], c);
+  }
+  for (const Pair& pair : pairs_) {
+    const Met met = meet(held_, surface_, pair.node, pair.facet, pair_gap(pair.node, pair.facet));
+    NodalContact c;
+    c.penetration = std::max(0.0, met.contact.penetration - pair.offset);
+    if (c.penetration > 0.0) c.state = slips_[at(pair.node)] != 0 ? NodalContact::State::slip : NodalContact::State::stick;
+    merge(nodes[at(held_.nodes()[at(pair.node)])], c);
   }
 }
 

@@ -22,6 +22,7 @@ class BothSides final : public InterfaceModel {
   void commit(double) override {}
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
+  void add_nodal_contact(std::span<NodalContact> nodes) const override;
   [[nodiscard]] std::span<const Index> nodes_in_contact() const override { return in_contact_; }
   void save(HistoryWriter& out) const override;
   void load(HistoryReader& in) override;
@@ -52,7 +53,7 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] double pair_stiffness(Index node, Index facet) const;
   [[nodiscard]] double mass_of(const HostState& host, std::size_t n) const { return host.mass.empty() ? 0.0 : host.mass[n]; }
   [[nodiscard]] Vec3 friction_of(const HostState& host, const Pair& old, Pair& pair, const Vec3& normal, const Vec3& v, double vn,
-                                 double pressing, double critical, Sums& sums) const;
+                                 double pressing, double critical, Sums& sums, bool& slips) const;
   /// Initial penetrations: who leaves, what is switched off (numerics.md 7.7.1).
   /// @param awake  false: the interface is born later, what is there now is kept for then
   void settle(bool awake);
@@ -73,6 +74,7 @@ class BothSides final : public InterfaceModel {
   std::vector<Pair> pairs_, previous_;                         // by node, then facet
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
+  std::vector<std::uint8_t> slips_;  // #held: some friction of the node is at its limit (output only, no history)
   std::vector<Index> in_contact_, scratch_;
   std::vector<std::uint8_t> off_;          // #F: without stiffness for good (drop_facets)
   double widest_ = 0.0, narrowest_ = 0.0;  // largest gap of a facet; smallest gap of any pair

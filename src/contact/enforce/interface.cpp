@@ -128,6 +128,11 @@ void Interface::add_nodal_area(std::span<const Vec3> x, std::span<double> area) 
   made_->model->add_nodal_area(x, area);
 }
 
+void Interface::add_nodal_contact(std::span<NodalContact> nodes) const {
+  made_->check(nodes.size(), "nodes");
+  made_->model->add_nodal_contact(nodes);
+}
+
 std::span<const Index> Interface::nodes_in_contact() const { return made_->model->nodes_in_contact(); }
 
 std::vector<std::byte> Interface::history() const { return made_->history(); }

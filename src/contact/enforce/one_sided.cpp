@@ -251,6 +251,12 @@ void OneSided::add_nodal_area(std::span<const Vec3> x, std::span<double> area) c
   }
 }
 
+void OneSided::add_nodal_contact(std::span<NodalContact> nodes) const {
+  if (!started_) return;
+  pass_[0].add_nodal_contact(side_[0], side_[1], nodes);
+  if (two_passes_) pass_[1].add_nodal_contact(side_[1], side_[0], nodes);
+}
+
 void OneSided::save(HistoryWriter& out) const {
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
   out.put(static_cast<std::uint64_t>(evaluated_ ? 1 : 0));

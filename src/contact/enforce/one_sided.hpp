@@ -21,6 +21,7 @@ class OneSided final : public InterfaceModel {
   void commit(double dt) override;
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
+  void add_nodal_contact(std::span<NodalContact> nodes) const override;
   [[nodiscard]] std::span<const Index> nodes_in_contact() const override { return in_contact_; }
   void save(HistoryWriter& out) const override;
   void load(HistoryReader& in) override;

@@ -67,7 +67,8 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       state_(held_nodes),
       next_(held_nodes),
-      quiet_(held_nodes, awake) {}
+      quiet_(held_nodes, awake),
+      slips_(held_nodes, 1) {}
 
 void Pass::start(const Side& held, const Side& surface) {
   started_ = true;
@@ -222,6 +223,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
     evaluate_groups(0, groups_.size());
   }
 
+  committed_ = false;
   PassTotals totals;
   in_contact_.clear();
   for (const GroupSums& sums : groups_) {
@@ -243,6 +245,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
 }
 
 PassTotals Pass::rest() {
+  committed_ = false;
   PassTotals totals;
   stale_ = true;
   in_contact_.clear();
@@ -257,7 +260,10 @@ PassTotals Pass::rest() {
   return totals;
 }
 
-void Pass::commit() { state_.swap(next_); }
+void Pass::commit() {
+  state_.swap(next_);
+  committed_ = true;
+}
 
 void Pass::save(HistoryWriter& out) const {
   out.put_all(state_);

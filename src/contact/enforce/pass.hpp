@@ -89,6 +89,8 @@ class Pass {
   PassTotals rest();
   void commit();
 
+  /// Merges opening, penetration and friction state of the held nodes into #N values of the host. After evaluate().
+  void add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const;
   /// Host indices of held nodes with P > 0.
   [[nodiscard]] const std::vector<Index>& in_contact() const { return in_contact_; }
   void save(HistoryWriter& out) const;
@@ -155,6 +157,7 @@ class Pass {
   bool half_of_facet_ = false;
   bool stale_ = true;
   bool started_ = false;
+  bool committed_ = false;  ///< state_ is of this step, not next_
   bool settled_ = false;  ///< initial penetrations are dealt with
   double keep_ = 1.0;     ///< share of every node's offset that the gradual start leaves in this step
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
@@ -165,6 +168,7 @@ class Pass {
   std::vector<Index> in_contact_;
   std::vector<GroupSums> groups_;
   std::vector<std::uint8_t> quiet_;  ///< Quiet of every held node
+  std::vector<std::uint8_t> slips_;  ///< of every held node in contact: its friction is at its limit (output only, no history)
   Executor executor_;
   Candidates candidates_;
   IncrementalSearch incremental_;
@@ -188,6 +192,9 @@ class Pass {
                                   Index i) const;
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
   void limit_depths();
+  [[nodiscard]] const NodeState& now(Index i) const { return (committed_ ? state_ : next_)[at(i)]; }
+  /// Signed distance of a held node to the other side, whatever it touches; NaN when nothing is near.
+  [[nodiscard]] double distance_to(const Side& held, const Side& surface, Index i) const;
   /// True while the node cannot touch, now or in the coming step.
   [[nodiscard]] bool far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const;
   [[nodiscard]] bool asleep(const Scene& scene, Index i) const;

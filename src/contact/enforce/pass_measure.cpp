@@ -1,6 +1,7 @@
 // What a node of a pass sees: distance, facet, penetration and the pair's force, by the closest point or by the plain rule.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/enforce/pass.hpp"
 #include "contact/project/plain.hpp"
@@ -212,6 +213,44 @@ void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& 
   for (std::size_t k = 0; k < 4; ++k) pair.on_facet[k] = -p.weight[k] * pair.on_node;
   // A node without stiffness (its elements are gone) still counts as projected, with no force.
   touch.contact = true;
+}
+
+double Pass::distance_to(const Side& held, const Side& surface, Index i) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!held.node_active(i)) return none;
+  const Vec3 x = held.x()[at(i)];
+  if (!closest()) {
+    const Index facet = tracked_[at(i)].facet;
+    if (facet == no_index || !surface.active(facet)) return none;
+    const PlainPoint p = project_plain(surface.patch(facet), x, options_.gap, options_.rules.area_ratio_projection);
+    return p.inside ? p.distance : none;
+  }
+  const NodeState& node = now(i);
+  if (node.held != 0 && node.facet != no_index && surface.active(node.facet)) return descend_to_nearest(surface, node.facet, x).distance;
+  if (!candidates_.made()) return none;
+  ClosestPoint nearest;
+  Index facet = no_index;
+  for (const Candidates::Entry& entry : candidates_.of(i)) {
+    if (!surface.active(entry.facet)) continue;
+    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
+    if (facet != no_index && !(other.squared_distance < nearest.squared_distance)) continue;
+    nearest = other;
+    facet = entry.facet;
+  }
+  return facet == no_index || nearest.beyond ? none : signed_measure(surface, facet, nearest, x).distance;
+}
+
+void Pass::add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const {
+  for (Index i = 0; i < held.node_count(); ++i) {
+    const NodeState& node = now(i);
+    NodalContact c;
+    c.opening = distance_to(held, surface, i) - options_.gap;
+    if (node.held != 0) {
+      c.state = slips_[at(i)] != 0 ? NodalContact::State::slip : NodalContact::State::stick;
+      c.penetration = std::max(0.0, (node.offset < never ? -node.offset : 0.0) - c.opening);
+    }
+    merge(nodes[at(held.nodes()[at(i)])], c);
+  }
 }
 
 }  // namespace abut::contact

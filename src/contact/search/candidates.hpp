@@ -26,6 +26,8 @@ class Candidates {
   /// @param reach  #held, distance within which facets matter (< 0: this node needs none)
   void update(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, bool force);
 
+  /// False before the first update().
+  [[nodiscard]] bool made() const { return !first_.empty(); }
   [[nodiscard]] std::span<const Entry> of(Index node) const {
     return std::span(entries_).subspan(at(first_[at(node)]), at(first_[at(node) + 1] - first_[at(node)]));
   }

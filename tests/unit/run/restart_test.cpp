@@ -69,7 +69,7 @@ void expect_same(const Run& a, const Run& b, const std::string& what) {
   }
   EXPECT_EQ(a.history().names, b.history().names) << what;
   EXPECT_EQ(a.history().values, b.history().values) << what;
-  for (const std::string& name : Run::node_field_names()) EXPECT_EQ(a.node_field(name), b.node_field(name)) << what << ' ' << name;
+  for (const std::string& name : abut::Run::node_field_names()) EXPECT_EQ(a.node_field(name), b.node_field(name)) << what << ' ' << name;
 }
 
 /// Runs to the end; at some cycles a copy goes on from a checkpoint in memory of its own and must end alike.

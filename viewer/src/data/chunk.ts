@@ -105,5 +105,6 @@ export function dequantise(q: number, info: ChunkInfo, component: number): numbe
   if (q === NO_VALUE) return NaN;
   const low = info.low?.[component] ?? 0;
   const high = info.high?.[component] ?? 0;
-  return low + ((high - low) * q) / TOP;
+  const value = low + ((high - low) * q) / TOP;
+  return Math.abs(value) < 1e-9 * (high - low) ? 0 : value;
 }

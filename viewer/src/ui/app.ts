@@ -44,13 +44,14 @@ export class App {
   private side: ReturnType<typeof tabs> | undefined;
   private componentSelect = h("select", { "aria-label": "Component" });
   private fieldSelect = h("select", { "aria-label": "Colour by" });
+  private showing: Promise<unknown> = Promise.resolve();
   private readonly toast = h("div", { class: "toast", role: "status" });
   private readonly arrowsData: { segments: number[][]; color: Vec; interface: number }[] = [];
 
   constructor(
     private readonly root: HTMLElement,
     readonly document: ReportDocument,
-    private readonly store: ChunkStore,
+    readonly store: ChunkStore,
   ) {
     this.state = new State({
       frame: document.first ?? 0,
@@ -81,6 +82,7 @@ export class App {
       await this.picture.show();
       this.picture.view.fit();
       this.picture.view.drawNow();
+      this.picture.view.wait();
       (window as unknown as { abutFirstPicture: number }).abutFirstPicture = performance.now();
     }
     this.fillSide();
@@ -377,7 +379,8 @@ export class App {
       if (changes.has("field")) this.fillComponents();
       if (changes.has("component")) this.componentSelect.value = String(shown.component);
       if (changes.has("frame") || changes.has("field") || changes.has("component") || changes.has("hiddenParts")) {
-        void picture.show().then((drawn) => {
+        this.showing = picture.show();
+        void this.showing.then((drawn) => {
           if (drawn && this.state.shown.normals) this.updateArrows();
           if (drawn && changes.has("field")) void picture.prefetch();
         });
@@ -448,6 +451,15 @@ export class App {
     if (this.document.frames.length > 1) this.state.set({ playing: !this.state.shown.playing });
   }
 
+  /** Resolves when the picture that is wished for stands. */
+  async drawn(): Promise<void> {
+    for (let awaited; awaited !== this.showing; ) {
+      awaited = this.showing;
+      await awaited;
+    }
+    await new Promise<void>((resolve) => requestAnimationFrame(() => resolve()));
+  }
+
   /** One state after the other, as fast as they can be drawn but not faster than `FRAMES_PER_SECOND`. */
   private async play(): Promise<void> {
     if (!this.picture) return;
@@ -458,13 +470,6 @@ export class App {
       await this.drawn();
       await new Promise((resolve) => setTimeout(resolve, Math.max(0, 1000 / FRAMES_PER_SECOND - (performance.now() - start))));
     }
-  }
-
-  /** Resolves when the wished picture stands. */
-  async drawn(): Promise<void> {
-    if (!this.picture) return;
-    while (!(await this.picture.show())) await new Promise((resolve) => setTimeout(resolve, 1));
-    await new Promise<void>((resolve) => requestAnimationFrame(() => resolve()));
   }
 
   pickAt(x: number, y: number): void {

@@ -8,6 +8,7 @@ import {
   interfaceIds,
   interfaceLines,
   columnDimension,
+  nearestIndex,
   type Columns,
   type Line,
 } from "../data/series";
@@ -54,8 +55,15 @@ class Plot {
     this.plot = undefined;
     this.fill();
   }
+  /** Marks the picture's time; the legend shows its values while the pointer is elsewhere. */
   mark(): void {
+    const at = this.host.time();
+    const time = this.host.columns.get("time");
     this.plot?.redraw(false, false);
+    requestAnimationFrame(() => {
+      if (!this.plot || at === undefined || !time || this.plot.cursor.left! >= 0) return;
+      this.plot.setLegend({ idx: nearestIndex(time, at) }, false);
+    });
   }
 
   private fill(): void {
@@ -78,7 +86,7 @@ class Plot {
     if (!time) return;
     const text = cssValue("--text-2");
     const grid = cssValue("--grid");
-    const mark = cssValue("--accent");
+    const mark = cssValue("--text");
     const font = "11px " + cssValue("--font");
     const anyRight = this.lines.some((l) => l.right);
     const axis = (extra: uPlot.Axis): uPlot.Axis => ({
@@ -105,13 +113,6 @@ class Plot {
         cursor: {
           points: { size: 6 },
           drag: { x: true, y: false },
-          bind: {
-            click: (u, _t, handler) => (event: MouseEvent) => {
-              handler(event);
-              if (u.cursor.left !== undefined && u.cursor.left >= 0 && !this.dragged) this.host.goTo(u.posToVal(u.cursor.left, "x"));
-              return null;
-            },
-          },
         },
         legend: { live: true },
         scales: {
@@ -144,6 +145,12 @@ class Plot {
           })),
         ],
         hooks: {
+          ready: [
+            (u) =>
+              u.over.addEventListener("click", () => {
+                if (!this.dragged && u.cursor.left! >= 0) this.host.goTo(u.posToVal(u.cursor.left!, "x"));
+              }),
+          ],
           setSeries: [
             (_u, index, opts) => {
               if (index !== null && index > 0 && opts.show !== undefined) this.on[index - 1] = opts.show;
@@ -167,6 +174,7 @@ class Plot {
               context.save();
               context.strokeStyle = mark;
               context.lineWidth = devicePixelRatio;
+              context.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
               context.beginPath();
               context.moveTo(x, top);
               context.lineTo(x, top + t);
@@ -184,6 +192,7 @@ class Plot {
     const names = this.element.querySelector(".u-legend");
     if (names) this.observer.observe(names);
     this.fill();
+    this.mark();
   }
   private dragged = false;
 }

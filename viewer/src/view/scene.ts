@@ -44,6 +44,9 @@ export interface Coloring {
   look: Look;
 }
 
+/** Width that the legend takes, in pixels. */
+const LEGEND = 170;
+
 const looks: Record<Look, number> = { plain: 0, sparse: 1, state: 2 };
 
 export class View {
@@ -77,6 +80,7 @@ export class View {
   private moved: Float32Array | undefined;
   private meshShown = false;
   private size = 1;
+  private covered = 0;
   /** Called after each picture. */
   onDraw: (() => void) | undefined;
   drawCount = 0;
@@ -440,6 +444,9 @@ export class View {
     if (width <= 0 || height <= 0) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    // The legend stands at the right: the middle of the picture moves to the middle of what is left.
+    this.covered = width > 3 * LEGEND ? LEGEND / width : 0;
+    this.camera.setViewOffset(width, height, (this.covered * width) / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     this.draw();
   }
@@ -481,15 +488,34 @@ export class View {
     const right = this.camera.up.clone().cross(back).normalize();
     const up = back.clone().cross(right);
     const vertical = Math.tan(((this.camera.fov / 2) * Math.PI) / 180);
-    const horizontal = vertical * this.camera.aspect;
-    // The nearest place from which every node is seen: depth + side/tan for each.
+    const horizontal = vertical * this.camera.aspect * (1 - this.covered);
+    // The nearest place from which every node is seen: depth + side/tan for each. Perspective makes what is near larger: the middle of
+    // the picture is found in a few rounds.
     const p = this.positions();
     const n = p.length / 3;
+    const chosen = [...this.framed(nodes)];
     const x = new Vector3();
     let distance = 0;
-    for (const i of this.framed(nodes)) {
-      x.set(p[i]!, p[n + i]!, p[2 * n + i]!).sub(centre);
-      distance = Math.max(distance, x.dot(back) + Math.max(Math.abs(x.dot(right)) / horizontal, Math.abs(x.dot(up)) / vertical));
+    for (let round = 0; round < 4; round++) {
+      distance = 0;
+      for (const i of chosen) {
+        x.set(p[i]!, p[n + i]!, p[2 * n + i]!).sub(centre);
+        distance = Math.max(distance, x.dot(back) + Math.max(Math.abs(x.dot(right)) / horizontal, Math.abs(x.dot(up)) / vertical));
+      }
+      if (round === 3 || !(distance > 0)) break;
+      const extent = { left: Infinity, right: -Infinity, low: Infinity, high: -Infinity };
+      for (const i of chosen) {
+        x.set(p[i]!, p[n + i]!, p[2 * n + i]!).sub(centre);
+        const depth = distance - x.dot(back);
+        if (!(depth > 0)) continue;
+        extent.left = Math.min(extent.left, x.dot(right) / depth);
+        extent.right = Math.max(extent.right, x.dot(right) / depth);
+        extent.low = Math.min(extent.low, x.dot(up) / depth);
+        extent.high = Math.max(extent.high, x.dot(up) / depth);
+      }
+      if (!Number.isFinite(extent.left)) break;
+      centre.addScaledVector(right, (distance * (extent.left + extent.right)) / 2);
+      centre.addScaledVector(up, (distance * (extent.low + extent.high)) / 2);
     }
     distance = Math.max(1.08 * distance, nodes ? (0.16 * this.size) / vertical : 1e-9 * this.size);
     this.controls.target.copy(centre);
@@ -528,6 +554,11 @@ export class View {
     this.draw();
   }
 
+  /** Returns when the graphics card, or what stands in for it, is done with the picture. */
+  wait(): void {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
   draw(): void {
     if (this.drawRequested) return;
     this.drawRequested = true;

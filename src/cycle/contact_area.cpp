@@ -1,0 +1,55 @@
+#include "cycle/contact_area.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace abut::cycle {
+namespace {
+
+/// Index of the model's surface on a side of an interface; no_index: a set of nodes.
+Index surface_of(const model::Interface& card, std::size_t side) {
+  if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) return side == 0 ? t3->surface_1 : t3->surface_2;
+  if (side == 0) return no_index;
+  if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) return t5->surface;
+  return std::get<model::InterfaceType7>(card.type).surface;
+}
+
+}  // namespace
+
+ContactArea::ContactArea(const model::Model& model, std::span<const init::RunInterface> interfaces) {
+  std::map<std::array<Index, 4>, Facet> distinct;
+  for (std::size_t i = 0; i < interfaces.size(); ++i) {
+    const model::Interface& card = model.interfaces[static_cast<std::size_t>(interfaces[i].model_index)];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Index surface = surface_of(card, side);
+      if (surface == no_index) continue;
+      const auto& segments = model.surfaces[static_cast<std::size_t>(surface)].segments;
+      for (std::size_t f = 0; f < segments.size(); ++f) {
+        std::array<Index, 4> key = segments[f].nodes;
+        std::sort(key.begin(), key.end());
+        Facet& facet = distinct.try_emplace(key, Facet{segments[f].nodes, {}}).first->second;
+        facet.uses.push_back({i, side, f});
+      }
+    }
+  }
+  for (auto& [key, facet] : distinct) facets_.push_back(std::move(facet));
+}
+
+void ContactArea::write(std::span<const Vec3> x, std::span<const init::RunInterface> interfaces, std::span<double> area) const {
+  std::fill(area.begin(), area.end(), 0.0);
+  for (const Facet& facet : facets_) {
+    const bool active = std::any_of(facet.uses.begin(), facet.uses.end(), [interfaces](const Use& use) {
+      const auto& flags = interfaces[use.interface].sides[use.side].active;
+      return use.facet >= flags.size() || flags[use.facet] != 0;
+    });
+    if (!active) continue;
+    const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(facet.nodes[k])]; };
+    const bool triangle = facet.nodes[3] == facet.nodes[2];
+    const Vec3 doubled = triangle ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
+    const std::size_t corners = triangle ? 3 : 4;
+    const double share = 0.5 * norm(doubled) / static_cast<double>(corners);
+    for (std::size_t k = 0; k < corners; ++k) area[static_cast<std::size_t>(facet.nodes[k])] += share;
+  }
+}
+
+}  // namespace abut::cycle

@@ -1,0 +1,122 @@
+// What an interface says of each held node for output: opening, penetration, stick or slip.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench_host.hpp"
+
+namespace abut::contact {
+namespace {
+
+using test::flat;
+using test::grid;
+using test::Host;
+
+constexpr double gap = 0.1;
+
+/// A 3 x 3 patch at height `z` over a larger plane, normals face to face.
+struct Patches {
+  Host host;
+  Interface interface;
+  std::size_t first_of_upper = 0;
+
+  static Interface make(Host& host, double z, double friction, std::size_t& first_of_upper) {
+    const auto lower = grid(host, 6, 6, 0.0, 6.0, 0.0, 6.0, flat);
+    first_of_upper = host.x.size();
+    const auto upper = grid(host, 2, 2, 1.3, 3.3, 1.4, 3.4, [z](double, double) { return z; }, false);
+    Options options;
+    options.gap = gap;
+    options.friction = friction;
+    Interface interface = Interface::two_surfaces(Surface(lower), Surface(upper), options);
+    test::set_stiffness(interface, 0, lower.size(), 100.0);
+    test::set_stiffness(interface, 1, upper.size(), 100.0);
+    return interface;
+  }
+  explicit Patches(double z, double friction = 0.0) : interface(make(host, z, friction, first_of_upper)) {}
+
+  void move(const Vec3& by) {
+    std::vector<Vec3> x = host.x;
+    for (std::size_t n = first_of_upper; n < x.size(); ++n) x[n] += by;
+    host.place(interface, x);
+  }
+  std::vector<NodalContact> contacts() {
+    std::vector<NodalContact> out(host.x.size());
+    interface.add_nodal_contact(out);
+    return out;
+  }
+};
+
+TEST(NodalContact, OpeningIsTheDistanceLessTheGap) {
+  Patches p(gap + 0.03);
+  p.move({});
+  const auto c = p.contacts();
+  for (std::size_t n = p.first_of_upper; n < c.size(); ++n) {
+    EXPECT_NEAR(c[n].opening, 0.03, 1e-12) << n;
+    EXPECT_EQ(c[n].penetration, 0.0);
+    EXPECT_EQ(c[n].state, NodalContact::State::apart);
+  }
+  EXPECT_TRUE(std::isnan(c[0].opening)) << "a node of the plane with nothing before it";
+}
+
+TEST(NodalContact, PenetrationIsWhatTheForceIsMadeOf) {
+  Patches p(gap + 0.03);
+  p.move({});
+  p.move({0.0, 0.0, -0.05});
+  const auto c = p.contacts();
+  for (std::size_t n = p.first_of_upper; n < c.size(); ++n) {
+    EXPECT_NEAR(c[n].penetration, 0.02, 1e-12);
+    EXPECT_NEAR(c[n].opening, -0.02, 1e-12);
+    EXPECT_EQ(c[n].state, NodalContact::State::slip) << "without friction every contact slips";
+  }
+  EXPECT_NEAR(p.host.last.largest_penetration, 0.02, 1e-12);
+}
+
+TEST(NodalContact, AskingChangesNothing) {
+  Patches asked(gap + 0.01, 0.3), silent(gap + 0.01, 0.3);
+  for (int k = 0; k < 6; ++k) {
+    const Vec3 by{0.003 * k, 0.0, k < 3 ? -0.012 : 0.004};
+    asked.move(by);
+    silent.move(by);
+    (void)asked.contacts();
+    ASSERT_EQ(asked.interface.history(), silent.interface.history()) << k;
+    for (std::size_t n = 0; n < asked.host.f.size(); ++n) ASSERT_EQ(asked.host.f[n], silent.host.f[n]);
+  }
+}
+
+TEST(NodalContact, SticksBelowTheLimitOfCoulombAndSlipsBeyondIt) {
+  Patches p(gap + 0.001, 0.5);
+  p.move({});
+  p.move({0.0, 0.0, -0.021});
+  p.move({1e-6, 0.0, 0.0});
+  for (std::size_t n = p.first_of_upper; n < p.host.x.size(); ++n) EXPECT_EQ(p.contacts()[n].state, NodalContact::State::stick);
+  p.move({0.5, 0.0, 0.0});
+  for (std::size_t n = p.first_of_upper; n < p.host.x.size(); ++n) EXPECT_EQ(p.contacts()[n].state, NodalContact::State::slip);
+  p.move({0.0, 0.0, 0.5});
+  for (std::size_t n = p.first_of_upper; n < p.host.x.size(); ++n) EXPECT_EQ(p.contacts()[n].state, NodalContact::State::apart);
+}
+
+TEST(NodalContact, TwoSidedInterfaceToo) {
+  Host host;
+  const auto plane = grid(host, 4, 4, 0.0, 4.0, 0.0, 4.0, flat);
+  const Index node = host.add({2.2, 1.7, gap + 0.01}, 1.0);
+  BothSidesOptions options;
+  options.gap = gap;
+  Interface interface = Interface::both_sides({node}, Surface(plane), options);
+  test::set_stiffness(interface, 1, plane.size(), 100.0);
+  const auto at = [&](double z) {
+    std::vector<Vec3> x = host.x;
+    x[static_cast<std::size_t>(node)].z = z;
+    host.place(interface, x);
+    std::vector<NodalContact> out(host.x.size());
+    interface.add_nodal_contact(out);
+    return out[static_cast<std::size_t>(node)];
+  };
+  EXPECT_NEAR(at(gap + 0.01).opening, 0.01, 1e-12);
+  const NodalContact c = at(gap - 0.02);
+  EXPECT_NEAR(c.opening, -0.02, 1e-12);
+  EXPECT_NEAR(c.penetration, 0.02, 1e-12);
+  EXPECT_EQ(c.state, NodalContact::State::slip);
+}
+
+}  // namespace
+}  // namespace abut::contact

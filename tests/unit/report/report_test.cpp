@@ -1,0 +1,244 @@
+// A whole report from files that abut's own outputs wrote: what the page can read back is what the run had.
+#include "report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "core/diagnostic.hpp"
+#include "output/run_outputs.hpp"
+#include "read_back.hpp"
+#include "unit/output/scene.hpp"
+
+namespace abut::report {
+namespace {
+
+using Json = nlohmann::json;
+using abut::test::Scene;
+constexpr std::string_view page = "<html><!--abut:first--><script>viewer</script><!--abut:rest--></html>";
+
+class ReportTest : public ::testing::Test {
+ protected:
+  /// Runs the outputs over made-up states, one per time.
+  void run(const std::vector<double>& times, const std::function<void(std::size_t)>& change = {}) {
+    output::RunInfo info;
+    info.version = "test";
+    info.contact = findings_;
+    const auto sinks = output::open_run_outputs(output::RunFolder{folder_.path(), "scene"}, info, {});
+    scene_.state.times.t = 0.0;
+    sinks->begin(scene_.snapshot());
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      scene_.state.times.t = times[k];
+      scene_.state.times.cycle = 10 * static_cast<std::int64_t>(k);
+      if (change) change(k);
+      cycle::Snapshot s = scene_.snapshot();
+      s.animation_due = s.history_due = true;
+      s.controller = {cycle::StepController::Kind::brick, 41};
+      sinks->cycle(s);
+    }
+    sinks->end({});
+  }
+  void write(Fields fields = Fields::automatic) {
+    written_ = write_report(folder_.path(), file(), page, fields);
+    text_ = abut::test::slurp(file());
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(text_, match, std::regex("id=\"abut-document\">([^<]*)</script>")));
+    document_ = Json::parse(match[1].str());
+  }
+  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "report.html"; }
+  [[nodiscard]] std::string chunk_text(const Json& about) const {
+    const std::string start = "id=\"c" + std::to_string(about["id"].get<int>()) + "\">";
+    const std::size_t at = text_.find(start);
+    EXPECT_NE(at, std::string::npos) << start;
+    const std::size_t from = at + start.size();
+    return text_.substr(from, text_.find('<', from) - from);
+  }
+  [[nodiscard]] std::vector<std::uint32_t> integers_of(const Json& about) const {
+    return test::read_integers(about["kind"], about["count"], about["components"], chunk_text(about));
+  }
+  [[nodiscard]] std::vector<double> values_of(std::size_t frame, const std::string& field) const {
+    const Json& fields = document_["fields"];
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (fields[i]["name"] != field) continue;
+      const Json& about = document_["frames"][frame]["values"][i];
+      Chunk chunk{about["kind"], about["count"], about["components"], about["low"], about["high"], {}};
+      if (about["id"] >= 0) chunk.text = chunk_text(about);
+      return test::read_values(chunk);
+    }
+    ADD_FAILURE() << "no field " << field;
+    return {};
+  }
+
+  abut::test::TemporaryFolder folder_;
+  Scene scene_;
+  std::vector<init::ContactFinding> findings_;
+  Written written_;
+  std::string text_;
+  Json document_;
+};
+
+TEST_F(ReportTest, NodesElementsAndFacesAreThoseOfTheModel) {
+  run({0.0, 0.5});
+  write();
+  EXPECT_EQ(written_.states, 2u);
+  EXPECT_EQ(written_.elements, 6u);
+  EXPECT_EQ(written_.bytes, text_.size());
+  const Json& mesh = document_["mesh"];
+  const auto node_id = integers_of(mesh["node_id"]);
+  const auto element_id = integers_of(mesh["element_id"]);
+  EXPECT_EQ(node_id.size(), 12u);
+  for (const std::uint32_t id : {31u, 32u, 41u, 42u, 43u, 51u}) {
+    EXPECT_NE(std::find(element_id.begin(), element_id.end(), id), element_id.end()) << id;
+  }
+  EXPECT_EQ(mesh["parts"], (Json{11, 22}));
+  // The quadrilateral shell 31 comes first, with its nodes by id.
+  const auto faces = integers_of(mesh["faces"]);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(node_id[faces[k]], 101u + k);
+  // Positions: origin + point is the initial position.
+  const auto words = test::read_integers("f32", 12, 3, chunk_text(mesh["points"]));
+  for (std::size_t n = 0; n < 12; ++n) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double x = mesh["origin"][c].get<double>() + static_cast<double>(std::bit_cast<float>(words[3 * n + c]));
+      EXPECT_NEAR(x, scene_.model.node_x[node_id[n] - 101][static_cast<int>(c)], 1e-6);
+    }
+  }
+}
+
+TEST_F(ReportTest, FieldsComeBackWithinAQuantum) {
+  run({0.0, 0.5}, [this](std::size_t k) {
+    for (std::size_t n = 0; n < scene_.state.u.size(); ++n) {
+      scene_.state.u[n] = {0.01 * double(n * (k + 1)), -0.5, 2.0 * double(k) - 0.1 * double(n)};
+      scene_.state.x[n] = scene_.model.node_x[n] + scene_.state.u[n];
+    }
+  });
+  write();
+  const auto node_id = integers_of(document_["mesh"]["node_id"]);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto u = values_of(k, "displacement");
+    const auto pressure = values_of(k, "contact_pressure");
+    for (std::size_t n = 0; n < node_id.size(); ++n) {
+      const std::size_t m = node_id[n] - 101;
+      EXPECT_NEAR(u[3 * n], 0.01 * double(m * (k + 1)), 1e-5);
+      EXPECT_NEAR(u[3 * n + 1], -0.5, 1e-7);
+      EXPECT_NEAR(u[3 * n + 2], 2.0 * double(k) - 0.1 * double(m), 2e-5);
+      const double expected = scene_.contact_area[m] > 0.0 ? norm(scene_.contact_normal[m]) / scene_.contact_area[m] : 0.0;
+      EXPECT_NEAR(pressure[n], expected, 2e-5 * expected + 2e-3);
+    }
+  }
+  EXPECT_EQ(document_["frames"][1]["time"], 0.5);
+  EXPECT_EQ(document_["frames"][1]["cycle"], 10);
+}
+
+TEST_F(ReportTest, DeletedElementsDisappearAndWhatIsBehindThemIsSeen) {
+  run({0.0, 0.5}, [this](std::size_t k) {
+    if (k == 1) scene_.group(2).remove(1);  // the wedge 42 on the brick 41
+  });
+  write();
+  EXPECT_EQ(document_["frames"][1]["deleted"], 1);
+  const auto hidden = integers_of(document_["frames"][1]["hidden"]);
+  const auto element = integers_of(document_["mesh"]["face_element"]);
+  const auto element_id = integers_of(document_["mesh"]["element_id"]);
+  int of_wedge = 0;
+  for (std::size_t f = 0; f < hidden.size(); ++f) {
+    if (element_id[element[f]] != 42) continue;
+    ++of_wedge;
+    EXPECT_EQ(hidden[f], 1u);
+  }
+  EXPECT_EQ(of_wedge, 5);
+  EXPECT_TRUE(std::isnan(values_of(1, "von_mises")[static_cast<std::size_t>(
+      std::find(element_id.begin(), element_id.end(), 42u) - element_id.begin())]));
+}
+
+TEST_F(ReportTest, TheHistoryHasEveryColumnAndTheController) {
+  run({0.0, 0.25, 0.5});
+  write();
+  const auto& names = document_["history"]["names"];
+  EXPECT_EQ(document_["history"]["rows"], 3);
+  EXPECT_EQ(names[0], "time");
+  const auto column = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    const Json& about = document_["history"]["columns"][static_cast<std::size_t>(at)];
+    std::vector<float> out;
+    for (const std::uint32_t word : test::read_integers("f32", about["count"], 1, chunk_text(about))) out.push_back(std::bit_cast<float>(word));
+    return out;
+  };
+  EXPECT_EQ(column("time"), (std::vector<float>{0.0f, 0.25f, 0.5f}));
+  EXPECT_EQ(column("GLOBAL/DTKIND"), (std::vector<float>{3.0f, 3.0f, 3.0f}));
+  EXPECT_EQ(column("GLOBAL/DTID"), (std::vector<float>{41.0f, 41.0f, 41.0f}));
+}
+
+TEST_F(ReportTest, ContactSurfacesAreThereWithTheirSides) {
+  scene_.model.surfaces.emplace_back().id = 70;
+  scene_.model.surfaces.emplace_back().id = 71;
+  scene_.model.surfaces[0].segments.push_back({.nodes = {0, 1, 2, 3}});
+  scene_.model.surfaces[1].segments.push_back({.nodes = {8, 9, 10, 10}});
+  scene_.model.interfaces[0].type = model::InterfaceType3{.surface_1 = 0, .surface_2 = 1};
+  scene_.model.interfaces[1].type = model::InterfaceType5{.nodes = {}, .surface = 1};
+  run({0.0});
+  write();
+  const Json& contact = document_["contact"];
+  ASSERT_EQ(contact.size(), 3u);
+  EXPECT_EQ(contact[0]["interface"], 3);
+  EXPECT_EQ(contact[0]["side"], 1);
+  EXPECT_EQ(contact[1]["surface"], 71);
+  EXPECT_EQ(contact[2]["interface"], 7);
+  EXPECT_EQ(contact[2]["side"], 2);
+  EXPECT_EQ(integers_of(contact[1]["segments"]), (std::vector<std::uint32_t>{8, 9, 10, 10}));
+}
+
+TEST_F(ReportTest, TextOfTheDeckCannotEndItsElement) {
+  scene_.model.title = "</script><script>alert(1)</script>";
+  run({0.0});
+  write();
+  EXPECT_EQ(text_.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(document_["run"]["model"]["title"], scene_.model.title);
+}
+
+TEST_F(ReportTest, TheFirstPictureComesBeforeTheViewerAndTheRestAfter) {
+  run({0.0, 0.5, 1.0}, [this](std::size_t k) {
+    for (Vec3& u : scene_.state.u) u.x += 0.1 * double(k + 1) * u.z;
+  });
+  write();
+  const std::size_t viewer = text_.find("<script>viewer");
+  const auto place = [&](const Json& about) { return text_.find("id=\"c" + std::to_string(about["id"].get<int>()) + "\""); };
+  EXPECT_LT(place(document_["mesh"]["faces"]), viewer);
+  const auto first = document_["first"].get<std::size_t>();
+  EXPECT_LT(place(document_["frames"][first]["values"][0]), viewer);
+  EXPECT_GT(place(document_["frames"][first == 0 ? 1 : 0]["values"][0]), viewer);
+}
+
+TEST_F(ReportTest, ARunWithoutAnimationHasPlotsOnly) {
+  run({0.0, 0.5});
+  std::filesystem::remove(folder_.path() / "scene.pvd");
+  write();
+  EXPECT_TRUE(document_["frames"].empty());
+  EXPECT_FALSE(document_.contains("mesh"));
+  EXPECT_EQ(document_["history"]["rows"], 2);
+}
+
+TEST_F(ReportTest, ARunThatWasKilledLosesItsLastRowOnly) {
+  run({0.0, 0.5});
+  std::ofstream(folder_.path() / "scene_th.csv", std::ios::app) << "0.75,1.0,";
+  write();
+  EXPECT_EQ(document_["history"]["rows"], 2);
+}
+
+TEST_F(ReportTest, WhatIsNoRunFolderIsRefusedByName) {
+  const auto message = [this] {
+    try {
+      (void)write_report(folder_.path(), file(), page, Fields::automatic);
+    } catch (const RunError& e) { return std::string(e.what()); }
+    return std::string();
+  };
+  EXPECT_NE(message().find("no run.json"), std::string::npos);
+  std::ofstream(folder_.path() / "run.json") << "{\"half\": ";
+  EXPECT_NE(message().find("not a manifest"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(file()));
+  run({0.0});
+  std::ofstream(folder_.path() / "scene_anim" / "scene_00000.vtu") << "not a grid";
+  EXPECT_NE(message().find("scene_00000.vtu"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace abut::report

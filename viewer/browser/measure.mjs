@@ -1,0 +1,51 @@
+// How fast a report is: node browser/measure.mjs REPORT.html prints JSON. Headless Chromium, software rendering, 1280x720.
+//   first_picture_ms  from the start of loading to the first complete picture
+//   scrub_ms          median over jumps to all states in random order, each from the wish to the complete picture; every
+//                     state is decoded on the way
+//   scrub_again_ms    the same when all states are decoded
+import { findChromium, launch, openReport } from "./browser.mjs";
+
+if (!findChromium()) {
+  console.log("skipped: there is no Chromium here");
+  process.exit(77);
+}
+const browser = await launch();
+// The browser's own start and its first use of the graphics library are not the report's.
+const warm = await browser.newPage();
+await warm.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null);
+await warm.close();
+const { page, problems } = await openReport(process.argv[2], { browser });
+const result = await page.evaluate(async () => {
+  const { abut } = window;
+  const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+  const count = abut.document.frames.length;
+  let seed = 7;
+  const random = () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) / 2 ** 32;
+  const scrub = async () => {
+    const order = Array.from({ length: count }, (_, i) => i).sort(() => random() - 0.5);
+    const times = [];
+    for (const frame of order) {
+      if (frame === abut.state.shown.frame) continue;
+      const start = performance.now();
+      abut.state.set({ frame });
+      await abut.drawn();
+      abut.picture.view.wait();
+      times.push(performance.now() - start);
+    }
+    return times;
+  };
+  const first = await scrub();
+  await abut.picture.prefetch();
+  const again = await scrub();
+  return {
+    frames: count,
+    faces: abut.picture.view.faces.count,
+    elements: abut.document.mesh.elements_total,
+    first_picture_ms: Math.round(window.abutFirstPicture),
+    scrub_ms: Math.round(median(first)),
+    scrub_again_ms: Math.round(median(again)),
+    slowest_ms: Math.round(Math.max(...first, ...again)),
+  };
+});
+await browser.close();
+console.log(JSON.stringify({ ...result, problems }));
