@@ -5,8 +5,8 @@ usage: check_docs_code.py [--abut PROGRAM] [--library FILE] [--only PAGE ...] [-
 
 What a block is follows from its info string and from a comment right above it, and no block is passed over:
 
-  console        lines that start with "$ " are run; what stands below each must be what it prints. "..." stands for anything,
-                 in a line or as a line of its own.
+  console        lines that start with "$ " are run ("> " goes on); what stands below each must be what it prints. "..." stands for anything,
+                 in a line or as a line of its own; the number of blanks does not count.
   sh, bash       run from the first to the last line; must succeed
   python         run; must succeed
   cpp            compiled and linked with abut::contact, and run
@@ -31,7 +31,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ["README.md", "CONTRIBUTING.md", "examples/README.md"]
-KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "man", "source", "xdg-open", "firefox", "bench/run", "export"}
+KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "npm", "man", "source", "xdg-open", "firefox", "bench/run", "export"}
 LIMIT = 300  # seconds for one block
 
 
@@ -67,12 +67,12 @@ def blocks_of(page, text):
 
 
 def pattern_of(line):
-    return ".*".join(re.escape(part) for part in line.rstrip().split("..."))
+    return ".*".join(re.escape(part) for part in line.split("..."))
 
 
 def output_differs(expected, printed):
     """What is wrong with a printed text, or None. A line "..." stands for any number of lines."""
-    want, got = [line.rstrip() for line in expected.strip("\n").splitlines()], [line.rstrip() for line in printed.strip("\n").splitlines()]
+    want, got = ([re.sub(" +", " ", line).rstrip() for line in text.strip("\n").splitlines()] for text in (expected, printed))
     position, free = 0, False
     for line in want:
         if line.strip() == "...":
@@ -90,7 +90,7 @@ def output_differs(expected, printed):
 
 
 def commands_of(text):
-    """[(command, expected output)] of a console block; a command goes on after a trailing backslash."""
+    """[(command, expected output)] of a console block; a command goes on in lines that start with "> "."""
     found, lines, k = [], text.splitlines(), 0
     while k < len(lines):
         if not lines[k].startswith("$ "):
@@ -100,18 +100,18 @@ def commands_of(text):
             k += 1
             continue
         command = lines[k][2:]
-        while command.endswith("\\") and k + 1 < len(lines):
-            k += 1
-            command += "\n" + lines[k]
-        found.append((command, []))
         k += 1
+        while k < len(lines) and lines[k].startswith("> "):
+            command += "\n" + lines[k][2:]
+            k += 1
+        found.append((command, []))
     return [(command, "\n".join(output)) for command, output in found]
 
 
 class Runner:
     def __init__(self, program, library):
-        self.library = library
-        self.environment = {**os.environ, "PATH": f"{Path(program).parent}:{os.environ['PATH']}", "ABUT_SKIP_DEPS": "1", "LC_ALL": "C.UTF-8"}
+        self.program, self.library = Path(program), library
+        self.environment = {**os.environ, "PATH": f"{self.program.parent}:{os.environ['PATH']}", "ABUT_SKIP_DEPS": "1", "LC_ALL": "C.UTF-8"}
         self.printed = ""
 
     def call(self, command, folder, may_fail=False):
@@ -215,6 +215,8 @@ def main():
             if any(block.language in ("console", "sh", "bash", "python") for block in blocks):
                 shutil.copytree(ROOT / "examples", folder / "examples")
                 shutil.copytree(ROOT / "scripts", folder / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
+                (folder / "build/release").mkdir(parents=True)
+                (folder / "build/release/bin").symlink_to(runner.program.parent)
                 if (ROOT / "tools").is_dir():
                     shutil.copytree(ROOT / "tools", folder / "tools", ignore=shutil.ignore_patterns("__pycache__"))
             for block in blocks:

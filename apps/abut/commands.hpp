@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "abut/model.hpp"
 
@@ -14,13 +15,25 @@ struct RunArguments {
   std::filesystem::path output;  ///< empty: ./NAME
   int threads = 0;               ///< 0: all that the machine has
   std::string profile = "standard";
-  std::string interface_law;  ///< empty: the profile's
+  std::string interface_law;                 ///< empty: the profile's
+  std::vector<std::string> contact_ramps;    ///< ID:TIME
+  std::vector<std::string> contact_records;  ///< ID, ID:FROM or ID:FROM:TO
+  int checkpoint_every = 0;                  ///< 0: as /RFILE says
   int hash_every = 0;
   bool timing = false;
   bool quiet = false;
   bool orient = false;               ///< --orient auto
   bool allow_findings = false;       ///< run although the contact inspection found errors
   std::filesystem::path write_deck;  ///< empty: not asked for
+};
+
+struct ResumeArguments {
+  std::filesystem::path folder;
+  std::filesystem::path deck;  ///< empty: where it was
+  int threads = 0;
+  int checkpoint_every = -1;  ///< -1: as before
+  bool timing = false;
+  bool quiet = false;
 };
 
 struct CheckArguments {
@@ -38,9 +51,21 @@ struct ReportArguments {
   bool quiet = false;
 };
 
+struct ReplayArguments {
+  std::filesystem::path log;
+  bool steps = false;  ///< a line per step
+};
+
+struct KeywordsArguments {
+  std::string word;  ///< empty: all
+};
+
+[[nodiscard]] int keywords_command(const KeywordsArguments& arguments);
 [[nodiscard]] int run_command(const RunArguments& arguments);
+[[nodiscard]] int resume_command(const ResumeArguments& arguments);
 [[nodiscard]] int check_command(const CheckArguments& arguments);
 [[nodiscard]] int report_command(const ReportArguments& arguments);
+[[nodiscard]] int replay_command(const ReplayArguments& arguments);
 
 /// @pre profile is "standard" or "reference", law is "", "stiffening" or "constant"
 [[nodiscard]] inline Choices choices_of(std::string_view profile, std::string_view law) {

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <limits>
@@ -18,20 +19,28 @@ constexpr const char* examples = R"(Examples:
   abut run INT357_0000.rad                      run the deck into ./INT357
   abut run deck_0000.rad -o out --threads 4     choose the folder and the threads
   abut run deck_0000.rad --profile reference    with the reference program's rules, to compare results
+  abut run deck_0000.rad --checkpoint-every 5000
+                                                can be resumed after Ctrl-C, a crash or a full disk
+  abut resume deck                              go on in the run folder ./deck from its newest checkpoint
   abut check deck_0000.rad                      read, validate, inspect the contacts, summarise; nothing is written
   abut check deck_0000.rad --orient auto --write-deck fixed_0000.rad
                                                 turn contact surfaces to face each other and keep the result
+  abut keywords INTER                           which contact keywords are read, and which of their fields
   abut report INT357                            put the run folder into one page: INT357/report.html
+  abut run deck_0000.rad --record-contact 3     keep all inputs of interface 3 ...
+  abut replay deck/deck_contact_3.calls         ... and compute its forces again from them alone
 
-DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it. A run writes NAME.out (listing),
-NAME_th.csv (time history), NAME.pvd (animation, open it with ParaView) and run.json.
-Ctrl-C ends a run after its cycle with complete files.
+DECK is a Starter deck NAME_0000.rad; the Engine deck NAME_0001.rad is read from beside it, and runs that go on from it
+(NAME_0002.rad, ...) follow. A run writes NAME.out (listing), NAME_th.csv (time history), NAME.pvd (animation, open it with
+ParaView), run.json and, for resume, NAME.rst.
+Ctrl-C ends a run after its cycle with complete files and a checkpoint.
 Exit status: 0 done, 1 the deck has errors or the run did not reach its end, 2 wrong usage.)";
 
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace abut::app;
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of the write, like a full disk
   CLI::App app{"abut: explicit dynamics with two-surface contact, from Radioss decks"};
   app.footer(examples);
   app.require_subcommand(1);
@@ -50,6 +59,18 @@ int main(int argc, char** argv) {
       ->add_option("--interface-law", run.interface_law,
                    "normal law of contacts with a gap: stiffening or constant (default: the profile's)")
       ->check(laws);
+  run_app
+      ->add_option("--checkpoint-every", run.checkpoint_every,
+                   "write a checkpoint every N cycles (default: as /RFILE of the deck says); there is one at the end in any case")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  run_app
+      ->add_option("--contact-ramp", run.contact_ramps,
+                   "ID:TIME, push initial penetrations of an interface out over this time from its birth on (press fits)")
+      ->allow_extra_args(false);
+  run_app
+      ->add_option("--record-contact", run.contact_records,
+                   "ID[:FROM[:TO]], write all inputs of an interface to NAME_contact_ID.calls in the run folder, for abut replay")
+      ->allow_extra_args(false);
   run_app->add_option("--hash-every", run.hash_every, "hash the state every N cycles into run.json")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   run_app->add_flag("--timing", run.timing, "print the time spent in each phase");
@@ -62,6 +83,17 @@ int main(int argc, char** argv) {
   run_app->add_option("--orient", run_orient, orient_help)->check(orientations)->capture_default_str();
   run_app->add_option("--write-deck", run.write_deck, write_help)->needs("--orient");
   run_app->add_flag("--allow-findings", run.allow_findings, "run although the contact inspection found errors");
+
+  ResumeArguments resume;
+  CLI::App* resume_app = app.add_subcommand("resume", "go on with a run from the newest checkpoint in its folder");
+  resume_app->add_option("FOLDER", resume.folder, "run folder")->required();
+  resume_app->add_option("--deck", resume.deck, "Starter deck, when it is not where it was");
+  resume_app->add_option("--threads", resume.threads, "number of threads (default: all); results do not depend on it")
+      ->check(CLI::Range(1, 4096));
+  resume_app->add_option("--checkpoint-every", resume.checkpoint_every, "write a checkpoint every N cycles (default: as before)")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  resume_app->add_flag("--timing", resume.timing, "print the time spent in each phase");
+  resume_app->add_flag("--quiet", resume.quiet, "print nothing but warnings and errors");
 
   CheckArguments check;
   CLI::App* check_app = app.add_subcommand("check", "read and validate a deck, print a summary");
@@ -78,6 +110,15 @@ int main(int argc, char** argv) {
   report_app->add_flag("--all-fields", report.all_fields, "also what is left out of large runs: components of stress and velocity");
   report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
 
+  ReplayArguments again;
+  CLI::App* replay_app = app.add_subcommand("replay", "make the recorded calls of an interface again and compare every bit");
+  replay_app->add_option("FILE", again.log, "NAME_contact_ID.calls, from abut run --record-contact or from another host")->required();
+  replay_app->add_flag("--steps", again.steps, "print a line per step");
+
+  KeywordsArguments keywords;
+  CLI::App* keywords_app = app.add_subcommand("keywords", "print what abut does with each keyword of a deck, as Markdown");
+  keywords_app->add_option("WORD", keywords.word, "only keywords that contain this word, e.g. INTER");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -90,8 +131,11 @@ int main(int argc, char** argv) {
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
   try {
+    if (keywords_app->parsed()) return keywords_command(keywords);
     if (report_app->parsed()) return report_command(report);
-    return run_app->parsed() ? run_command(run) : check_command(check);
+    if (replay_app->parsed()) return replay_command(again);
+    if (run_app->parsed()) return run_command(run);
+    return resume_app->parsed() ? resume_command(resume) : check_command(check);
   } catch (const abut::InputError& e) {
     print_findings(e.diagnostics().all());
     return 1;

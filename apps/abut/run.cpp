@@ -5,8 +5,10 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <utility>
 
 #include "commands.hpp"
+#include "contact_choices.hpp"
 #include "findings.hpp"
 
 namespace abut::app {
@@ -21,53 +23,97 @@ extern "C" void on_signal(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+struct Manner {
+  bool quiet = false, timing = false;
+};
+
 /// To its end, with what happens on the console. @return whether it got there
-bool carry_out(Run& run, const RunArguments& arguments) {
+bool carry_out(Run& run, const Manner& manner) {
   const Model& model = run.model();
-  if (!arguments.quiet) {
-    fmt::print("{}: {} nodes, {} elements, {} interfaces, until {:.6g} {}; results in {}\n", model.name(), model.node_ids().size(),
-               model.element_count(), model.interfaces().size(), model.end_time(), model.units().time_name, run.output().string());
+  if (!manner.quiet) {
+    fmt::print("{}: {} nodes, {} elements, {} interfaces, ", model.name(), model.node_ids().size(), model.element_count(),
+               model.interfaces().size());
+    if (run.cycle() > 0) fmt::print("from cycle {}, time {:.6g} ", run.cycle(), run.time());
+    fmt::print("until {:.6g} {}; results in {}\n", model.end_time(), model.units().time_name, run.output().string());
     std::fflush(stdout);
+  }
+  const std::size_t known = run.findings().size();
+  for (const RunFinding& f : run.findings()) {
+    if (f.cycle == run.cycle() && run.cycle() > 0) fmt::print(stderr, "{}\n", to_string(f.diagnostic));
   }
   try {
     run.advance_to_end();
   } catch (const RunError&) {  // outcome() has it
   }
-  for (const RunFinding& f : run.findings()) fmt::print(stderr, "{}\n", to_string(f.diagnostic));
+  for (const RunFinding& f : run.findings().subspan(known)) fmt::print(stderr, "{}\n", to_string(f.diagnostic));
   const Outcome& outcome = run.outcome();
   const bool good = outcome.kind == Outcome::Kind::finished;
-  if (!arguments.quiet || !good) { fmt::print(good ? stdout : stderr, "{} {}\n", model.name(), to_string(outcome)); }
-  if (arguments.timing) {
+  if (!manner.quiet || !good) { fmt::print(good ? stdout : stderr, "{} {}\n", model.name(), to_string(outcome)); }
+  if (manner.timing) {
     for (const PhaseTime& phase : run.timings()) fmt::print("{:<24} {:>10.3f} s\n", phase.name, phase.seconds);
   }
   return good;
+}
+
+/// The run, then those of the later Engine decks.
+int carry_out_all(Run run, const Manner& manner, ResumeSettings settings) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  while (carry_out(run, manner)) {
+    if (run.model().run_number() >= run.model().last_run_number()) return 0;
+    settings.deck = run.model().path();
+    run = Run::resume(run.output(), settings);
+  }
+  return 1;
 }
 
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
   const Severity least = arguments.quiet ? Severity::warning : Severity::note;
-  const Model model = Model::read(arguments.deck, {.orient = arguments.orient, .write_deck = arguments.write_deck});
+  const ReadOptions options{.orient = arguments.orient, .write_deck = arguments.write_deck, .run = 1};
+  const Model model = Model::read(arguments.deck, options);
+  for (int n = 2; n <= model.last_run_number(); ++n) {
+    (void)Model::read(arguments.deck,
+                      {.orient = options.orient, .write_deck = {}, .run = n});  // faults of later decks before anything runs
+  }
   RunSettings settings;
   settings.threads = arguments.threads;
   settings.choices = choices_of(arguments.profile, arguments.interface_law);
+  settings.choices.gradual_starts = gradual_starts(arguments.contact_ramps);
+  settings.recordings = contact_recordings(arguments.contact_records);
   settings.output = arguments.output.empty() ? std::filesystem::path(model.name()) : arguments.output;
+  settings.checkpoint_every = arguments.checkpoint_every;
   settings.hash_every = arguments.hash_every;
   settings.record_history = false;
   settings.progress = !arguments.quiet;
   settings.allow_findings = arguments.allow_findings;
   settings.interrupt = &interrupted;
+  ResumeSettings later;
+  later.threads = arguments.threads;
+  later.record_history = false;
+  later.progress = !arguments.quiet;
+  later.interrupt = &interrupted;
   try {
     Run run(model, settings);
     print_findings(run.initial_findings(), least);
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
-    return carry_out(run, arguments) ? 0 : 1;
+    return carry_out_all(std::move(run), {arguments.quiet, arguments.timing}, later);
   } catch (const InputError& error) {
     print_findings(error.diagnostics().all(), least);
     fmt::print(stderr, "{}: not run; correct the contact (see docs/findings), or run with --allow-findings\n", model.name());
     return 1;
   }
+}
+
+int resume_command(const ResumeArguments& arguments) {
+  ResumeSettings settings;
+  settings.deck = arguments.deck;
+  settings.threads = arguments.threads;
+  settings.checkpoint_every = arguments.checkpoint_every;
+  settings.record_history = false;
+  settings.progress = !arguments.quiet;
+  settings.interrupt = &interrupted;
+  return carry_out_all(Run::resume(arguments.folder, settings), {arguments.quiet, arguments.timing}, settings);
 }
 
 }  // namespace abut::app

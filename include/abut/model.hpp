@@ -78,10 +78,17 @@ struct ContactFinding {
 /// The two rule sets (docs/guide/profiles.md).
 enum class Rules { standard, reference };
 
+/// A gradual start of an interface (contact::Options::start_duration): initial penetrations are pushed out over this time.
+struct GradualStart {
+  Id interface_id = 0;
+  double duration = 0.0;  ///< time
+};
+
 /// Choices of the mechanics that a deck does not make.
 struct Choices {
   Rules rules = Rules::standard;
   std::optional<contact::Law> interface_law;  ///< normal law of contacts with a gap; none: the rule set's
+  std::vector<GradualStart> gradual_starts;   ///< of interfaces of TYPE3 and TYPE5
 };
 
 /// What can be said of a model before it runs.

@@ -33,6 +33,7 @@ struct InterfaceResult {
   Vec3 normal_force, tangential_force;  ///< on the second (main) surface
   Vec3 normal_impulse, tangential_impulse;
   double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;  ///< stored, friction, damping, made or lost
+  double sw = 0.0;                                ///< work put in by a gradual start; part of the external work
   Index in_contact = 0;                           ///< held nodes that touch, both passes
   double largest_penetration = 0.0;
   Index crossed = 0;  ///< nodes that would have jumped through in the last step

@@ -29,15 +29,33 @@
 
 namespace abut {
 
+/// A call log of one interface (abut/contact/call_log.hpp): NAME_contact_ID.calls in the run folder, for `abut replay`.
+struct ContactRecording {
+  Id interface_id = 0;
+  double from = 0.0, to = 1e30;  ///< times
+};
+
 struct RunSettings {
   int threads = 0;                               ///< 0: all that the machine has
   Choices choices;                               ///< rule set and contact law
   std::filesystem::path output;                  ///< run folder (docs/guide/outputs.md); empty: no files are written
+  int checkpoint_every = 0;                      ///< cycles between checkpoints in the run folder; 0: as /RFILE of the deck says
+  std::vector<ContactRecording> recordings;      ///< each interface at most once; not gone on with by a resumed run
   int hash_every = 0;                            ///< cycles between state hashes in run.json, 0: none
   bool record_history = true;                    ///< keep the time history in memory: history()
   bool progress = false;                         ///< a line about the progress on standard error
   bool allow_findings = false;                   ///< run although the contact inspection found errors
   const std::atomic<bool>* interrupt = nullptr;  ///< when it becomes true the run ends after its cycle, with complete files
+};
+
+/// Settings of a run that goes on; the mechanics are those of the run that wrote the checkpoint.
+struct ResumeSettings {
+  std::filesystem::path deck;  ///< Starter deck; empty: where it was when the checkpoint was written
+  int threads = 0;             ///< 0: all that the machine has
+  int checkpoint_every = -1;   ///< -1: as before
+  bool record_history = true;
+  bool progress = false;
+  const std::atomic<bool>* interrupt = nullptr;
 };
 
 /// Time history in memory: the columns of NAME_th.csv.
@@ -64,6 +82,17 @@ class Run {
   /// Inspects the contacts, makes the first state, opens the files.
   /// @throws InputError when the inspection finds errors (unless they are allowed), RunError when a file cannot be written
   explicit Run(const Model& model, const RunSettings& settings = {});
+  /// Goes on from the newest whole checkpoint of a run folder, with its files (docs/guide/restart.md): the same bits as if it had never
+  /// stopped. When the run is finished, the next Engine deck takes over.
+  /// @param folder  run folder, or a checkpoint file in it
+  /// @throws RunError when there is no usable checkpoint, or it is of another model, version or deck; InputError of the deck
+  [[nodiscard]] static Run resume(const std::filesystem::path& folder, const ResumeSettings& settings = {});
+  /// A run of `model` that begins in the state of a checkpoint; its files, if any, begin there too.
+  /// @throws RunError when the checkpoint is not one of this model and these choices
+  [[nodiscard]] static Run load(const Model& model, const std::filesystem::path& checkpoint, const RunSettings& settings = {});
+  /// Writes a checkpoint: the whole state, in a file that is complete or not there. @throws RunError
+  void save(const std::filesystem::path& checkpoint);
+
   ~Run();  ///< ends the run if finish() was not called; never throws
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
@@ -123,6 +152,7 @@ class Run {
 
  private:
   struct Impl;
+  explicit Run(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

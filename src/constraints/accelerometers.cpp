@@ -44,4 +44,17 @@ void Accelerometers::record(const state::State& state) {
   }
 }
 
+void Accelerometers::persist(state::Archive& a) {
+  a.each(instruments_, [&a](Instrument& i) {
+    a(i.raw);
+    for (Section& s : i.sections) {
+      for (Vec3* v : {&s.value, &s.rate, &s.pull}) a(*v);
+    }
+  });
+  a.each(sums_, [&a](AccelerometerSums& s) {
+    a(s.filtered);
+    a(s.integral);
+  });
+}
+
 }  // namespace abut::constraints

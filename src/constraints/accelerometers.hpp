@@ -31,6 +31,8 @@ class Accelerometers {
   /// Step 24: reads a^n of the nodes; state.times.h_minus is the time since the last call.
   void record(const state::State& state);
 
+  void persist(state::Archive& a);
+
   [[nodiscard]] std::span<const AccelerometerSums> results() const { return sums_; }  ///< per model accelerometer
 
  private:

@@ -20,6 +20,10 @@ class Axes {
   /// Step 1: refreshes moving skews from x^n. A degenerate skew (nodes on a line) keeps its last axes.
   void update(const state::State& state);
 
+  void persist(state::Archive& a) {
+    a.each(frames_, [&a](Frame& frame) { a(frame); });
+  }
+
   /// k-th unit axis, k in 0..2; skew == no_index: global axes.
   [[nodiscard]] Vec3 axis(Index skew, int k) const { return frame(skew)[static_cast<std::size_t>(k)]; }
   [[nodiscard]] const Frame& frame(Index skew) const;

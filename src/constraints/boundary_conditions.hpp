@@ -45,6 +45,11 @@ class BoundaryConditions {
   /// Step 25: exact discrete work of both applications (negative: kinetic energy taken).
   double ledger_work(const state::State& state) { return meter_.settle(state); }
 
+  void persist(state::Archive& a) {
+    a.fixed(released_);
+    meter_.persist(a);
+  }
+
  private:
   struct Entry {
     Index node, skew;

@@ -77,6 +77,17 @@ void ImposedMotions::apply(state::State& state) {
   meter_.after(state);
 }
 
+void ImposedMotions::persist(state::Archive& a) {
+  a.each(dofs_, [&a](Dof& dof) {
+    a(dof.angle);
+    a(dof.power);
+    a(dof.old_power);
+    a(dof.active);
+  });
+  a.fixed(reaction_);
+  meter_.persist(a);
+}
+
 void ImposedMotions::add_imposed(Index node, BoundaryConditions::Held& held) const {
   for (const Dof& dof : dofs_) {
     const model::ImposedMotion& motion = model_->imposed_motions[static_cast<std::size_t>(dof.motion)];

@@ -34,6 +34,8 @@ class ImposedMotions {
   /// Step 25: exact discrete work.
   double ledger_work(const state::State& state) { return meter_.settle(state); }
 
+  void persist(state::Archive& a);
+
   /// Adds the directions of translation of `node` that are imposed in this cycle to those that are held.
   void add_imposed(Index node, BoundaryConditions::Held& held) const;
 

@@ -29,6 +29,11 @@ class Loads {
   /// Step 25: exact discrete work (work_meter.hpp) of f_external and m_external.
   double ledger_work(const state::State& state) { return work_.settle(state, state.f_external, state.m_external); }
 
+  void persist(state::Archive& a) {
+    a.fixed(pressure_);
+    work_.persist(a);
+  }
+
  private:
   void add_pressure(state::State& state);
 
@@ -52,6 +57,8 @@ class Gravities {
 
   /// Step 25: exact discrete work.
   double ledger_work(const state::State& state) { return meter_.settle(state); }
+
+  void persist(state::Archive& a) { meter_.persist(a); }
 
  private:
   const model::Model* model_;

@@ -222,9 +222,11 @@ void RigidBodies::follow_sensors(state::State& state) {
   const double t = state.times.t;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const model::RigidBody& card = model_->rigid_bodies[i];
-    if (card.sensor == no_index || !card.active) continue;
-    const model::Sensor& sensor = model_->sensors[at(card.sensor)];
-    const bool wanted = t >= sensor.t_on && t < sensor.t_off;
+    bool wanted = card.active;
+    if (card.sensor != no_index) {
+      const model::Sensor& sensor = model_->sensors[at(card.sensor)];
+      wanted = wanted && t >= sensor.t_on && t < sensor.t_off;
+    }
     if (wanted && !bodies_[i].on) switch_on(i, state, false);
     if (!wanted && bodies_[i].on) switch_off(i, state);
   }
@@ -318,6 +320,35 @@ void RigidBodies::scatter(state::State& state) {
       state.alpha[s] = (w - state.w[s]) / hb;
     }
   }
+}
+
+void RigidBodies::persist(state::Archive& a) {
+  a.each(bodies_, [&a](Body& b) {
+    a(b.on);
+    a(b.inertia.mass);
+    a(b.inertia.principal);
+    a(b.inertia.axes);
+    a(b.own_mass);
+    a(b.own_inertia);
+    a(b.own_moment);
+    a(b.entry_w);
+    a(b.euler_alpha);
+    a(b.rotation_before);
+    a(b.switch_work);
+  });
+  a.each(sums_, [&a](BodySums& s) {
+    for (Vec3* v : {&s.force_impulse, &s.moment_impulse, &s.force, &s.moment, &s.rotation}) a(*v);
+  });
+  a.fixed(body_of_);
+  a.fixed(main_of_);
+  if (!a.loading()) return;
+  const auto known = static_cast<Index>(bodies_.size());
+  for (const std::vector<Index>* owner : {&body_of_, &main_of_}) {
+    for (const Index body : *owner) {
+      if (body < no_index || body >= known) throw state::ArchiveError("the checkpoint is damaged (rigid bodies)");
+    }
+  }
+  ++revision_;
 }
 
 EnergyCorrection RigidBodies::energy_correction(const state::State& state) const {

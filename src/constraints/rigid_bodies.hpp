@@ -35,7 +35,8 @@ class RigidBodies {
 
   /// Masses, inertia, centre of gravity: moves the main node in x, gives it the body's mass and smallest principal inertia,
   /// gives secondary nodes the rigid motion of the main node (numerics.md 6.2.1). After masses and initial velocities.
-  /// Bodies with a sensor that has not fired, or that are switched off, are left alone until they are switched on.
+  /// Bodies with a sensor that has not fired, or that are switched off, are left alone until they are switched on (by the sensor, or
+  /// by /RBODY/ON of a later run).
   void initialise(state::State& state);
 
   /// Body (index in the model) of which the node is a secondary node of an active body; no_index: none.
@@ -66,6 +67,8 @@ class RigidBodies {
   /// work credited to their nodes by forces and meters. Of second order in the angle per step (nodes move on chords, axes turn
   /// between cycles), plus the energy of impact of a body that a sensor switches on. Once per cycle.
   double ledger_work(const state::State& state);
+
+  void persist(state::Archive& a);
 
   [[nodiscard]] std::span<const BodySums> results() const { return sums_; }  ///< per model rigid body
   /// Mass, principal inertias and axes of an active body.

@@ -77,6 +77,20 @@ void RigidWalls::apply(state::State& state) {
   meter_.after(state);
 }
 
+void RigidWalls::persist(state::Archive& a) {
+  a.each(walls_, [&a](Wall& wall) {
+    a.fixed(wall.filtered);
+    a(wall.reaction);
+    a(wall.impacted_mass);
+    a(wall.count);
+  });
+  a.each(sums_, [&a](WallSums& s) {
+    for (Vec3* v : {&s.normal_force, &s.tangential_force, &s.normal_impulse, &s.tangential_impulse}) a(*v);
+  });
+  a(work_);
+  meter_.persist(a);
+}
+
 bool RigidWalls::reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const {
   const auto i = static_cast<std::size_t>(node);
   const Vec3 predicted = state.v[i] + state.times.h_bar * state.a[i];

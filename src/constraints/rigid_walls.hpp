@@ -47,6 +47,8 @@ class RigidWalls {
   /// Step 25: exact discrete work, including the reaction on moving walls.
   double ledger_work(const state::State& state) { return meter_.settle(state); }
 
+  void persist(state::Archive& a);
+
   [[nodiscard]] std::span<const WallSums> results() const { return sums_; }  ///< per model rigid wall
   [[nodiscard]] Index in_contact(Index wall) const { return walls_[static_cast<std::size_t>(wall)].count; }
 

@@ -94,4 +94,11 @@ void Sections::gather(const state::State& state, std::span<const double> slots) 
   }
 }
 
+void Sections::persist(state::Archive& a) {
+  a.each(sections_, [&a](Section& section) { a(section.frame); });
+  a.each(sums_, [&a](SectionSums& s) {
+    for (Vec3* v : {&s.normal_force, &s.tangential_force, &s.moment, &s.normal_impulse, &s.tangential_impulse, &s.moment_impulse}) a(*v);
+  });
+}
+
 }  // namespace abut::constraints

@@ -36,6 +36,8 @@ class Sections {
   /// Step 11: resultants of this cycle from element slots; impulses grow by force times h_-.
   void gather(const state::State& state, std::span<const double> slots);
 
+  void persist(state::Archive& a);
+
   [[nodiscard]] std::span<const SectionSums> results() const { return sums_; }  ///< per model section
   [[nodiscard]] const Frame& frame(Index section) const { return sections_[static_cast<std::size_t>(section)].frame; }
 

@@ -34,6 +34,7 @@ class ForceWork {
  public:
   /// Step 25: work booked for the time up to t^n. @param force #N by 3; @param moment #N by 3 or empty
   double settle(const state::State& state, std::span<const Vec3> force, std::span<const Vec3> moment = {});
+  void persist(state::Archive& a) { a(second_half_); }
 
  private:
   double second_half_ = 0.0;
@@ -53,6 +54,8 @@ class WorkMeter {
 
   /// Step 25: work booked for the time up to t^n; clears the cycle's contributions.
   double settle(const state::State& state);
+  /// Between two cycles: what the next settle() still has to book.
+  void persist(state::Archive& a) { a(second_half_); }
 
  private:
   struct Kick {

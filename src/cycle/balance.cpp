@@ -90,6 +90,10 @@ void Cycle::close_balance() {
   b.mass = kinetic.mass + body.mass;
   b.added_mass = time_step_->added_mass();
   b.ie = b.he = b.ce = b.fw = b.dw = b.cx = 0.0;
+  const double started_before = start_work_;
+  start_work_ = 0.0;
+  for (const InterfaceResult& r : interface_results_) start_work_ += r.sw;
+  b.extw += start_work_ - started_before;
   for (const PartResult& p : parts_) {
     b.ie += p.ie;
     b.he += p.he;

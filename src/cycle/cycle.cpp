@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycle/node_kernels.hpp"
+
 namespace abut::cycle {
 
 namespace {
@@ -31,7 +33,7 @@ void Cycle::advance(Sink& sink) {
   if (loaded_) loads_.apply(state_);  //  3
   internal_forces(limits);            //  5, 8
   contact_forces(limits);             //  2, 4, 6, 7
-  assemble();                         //  10
+  assemble();                         //  10, 16
   {
     const Timer timer(*this, p_constraints);
     sections_.gather(state_, slots_);  // 11
@@ -41,7 +43,7 @@ void Cycle::advance(Sink& sink) {
     scaled_energy_ += time_step_->scale_masses(state_);                           // 13
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
     booked_work_ = loads_.book_work(state_);                                      // 15
-    accelerate();                                                                 // 16
+    if (totals_wanted_) accelerate_again();                                       // 16
     gravities_.apply(state_);                                                     // 17
     booked_work_ += gravities_.book_work(state_);
     boundary_.apply(state_);  // 18
@@ -69,8 +71,8 @@ void Cycle::advance(Sink& sink) {
 void Cycle::decide_outputs() {
   const double t = state_.times.t;
   const model::Controls& c = model_.controls;
-  history_due_ = t >= next_history_;
-  if (history_due_) next_history_ = std::min(c.t_end, std::max(t, next_history_ + c.history_interval));
+  history_due_ = t >= std::min(c.t_end, next_history_);
+  if (t >= next_history_) next_history_ = std::max(t, next_history_ + c.history_interval);
   animation_due_ = t >= next_animation_;
   if (animation_due_) next_animation_ = std::max(t, next_animation_ + c.animation_interval);
   listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
@@ -114,6 +116,7 @@ void Cycle::internal_forces(StepLimits& limits) {
 
 void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
+  record_contacts();
   const state::StepTimes& t = state_.times;
   const contact::HostState host{state_.x, state_.v, state_.mass, t.t, t.h_minus, t.h_bar_old};
   {
@@ -132,6 +135,7 @@ void Cycle::contact_forces(StepLimits& limits) {
     out.ce = r.elastic;
     out.fw = r.friction_work;
     out.dw = r.damping_work;
+    out.sw = r.start_work;
     out.cx = r.made;
     out.in_contact = r.in_contact;
     out.largest_penetration = r.largest_penetration;
@@ -146,22 +150,34 @@ void Cycle::contact_forces(StepLimits& limits) {
 
 void Cycle::assemble() {
   const Timer timer(*this, p_assembly);
-  const double* sums = sums_.data();
-  pool_.for_ranges(state_.mass.size(), node_grain, [this, sums](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const elements::NodalSum n = assembly_.total(sums, i);
-      state_.f_internal[i] = n.force;
-      state_.f[i] = state_.f_external[i] - n.force + state_.f_contact[i];
-      state_.stiffness[i] = n.stiffness + contact_stiffness_[i];
-      if (!rotations_) continue;
-      state_.m_internal[i] = n.moment;
-      state_.m[i] = state_.m_external[i] - n.moment;
-      state_.rotational_stiffness[i] = n.rotational_stiffness;
-    }
-  });
+  const auto entries = [](const elements::Assembly::Entries& e) { return e.at.empty() ? nullptr : e.first.data(); };
+  const auto vectors = [](std::vector<Vec3>& a, bool wanted) { return wanted ? &a.data()->x : nullptr; };
+  const bool contact = !interfaces_.empty();
+  AssembleArgs args;
+  args.sums = sums_.data();
+  args.shell_first = entries(assembly_.shells());
+  args.shell_at = assembly_.shells().at.data();
+  args.solid_first = entries(assembly_.solids());
+  args.solid_at = assembly_.solids().at.data();
+  args.f_external = vectors(state_.f_external, loaded_);
+  args.m_external = vectors(state_.m_external, loaded_);
+  args.f_contact = vectors(state_.f_contact, contact);
+  args.contact_stiffness = contact_stiffness_.data();
+  args.mass = state_.mass.data();
+  args.inertia = state_.inertia.data();
+  args.f_internal = vectors(state_.f_internal, true);
+  args.a = vectors(state_.a, true);
+  args.stiffness = state_.stiffness.data();
+  args.m_internal = vectors(state_.m_internal, rotations_);
+  args.alpha = vectors(state_.alpha, rotations_);
+  args.rotational_stiffness = state_.rotational_stiffness.data();
+  args.f = vectors(state_.f, totals_wanted_);
+  args.m = vectors(state_.m, totals_wanted_ && rotations_);
+  pool_.for_ranges(state_.mass.size(), node_grain,
+                   [&args](std::size_t begin, std::size_t end) { node_kernels().assemble(args, begin, end); });
 }
 
-void Cycle::accelerate() {
+void Cycle::accelerate_again() {
   pool_.for_ranges(state_.mass.size(), node_grain, [this](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       state_.a[i] = state_.mass[i] > 0.0 ? state_.f[i] / state_.mass[i] : Vec3{};
@@ -175,15 +191,17 @@ void Cycle::integrate() {
   state::StepTimes& t = state_.times;
   const double h_bar = t.h_bar;
   const double h = t.h_plus;
-  pool_.for_ranges(state_.mass.size(), node_grain, [this, h_bar, h](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      state_.v[i] += h_bar * state_.a[i];
-      if (rotations_) state_.w[i] += h_bar * state_.alpha[i];
-      const Vec3 step = h * state_.v[i];
-      state_.x[i] += step;
-      state_.u[i] += step;
-    }
-  });
+  MotionArgs args;
+  args.v = &state_.v.data()->x;
+  args.a = &state_.a.data()->x;
+  args.w = rotations_ ? &state_.w.data()->x : nullptr;
+  args.alpha = &state_.alpha.data()->x;
+  args.x = &state_.x.data()->x;
+  args.u = &state_.u.data()->x;
+  args.h_bar = h_bar;
+  args.h_plus = h;
+  pool_.for_ranges(state_.mass.size(), node_grain,
+                   [&args](std::size_t begin, std::size_t end) { node_kernels().integrate(args, begin, end); });
   for (init::RunInterface& i : interfaces_) i.contact.commit(h);
   t.t += h;
   t.h_minus = h;

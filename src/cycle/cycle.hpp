@@ -54,6 +54,9 @@ class Cycle {
   /// Velocities with what the caller has changed.
   [[nodiscard]] std::span<const Vec3> velocities() const { return edited_v_.empty() ? state_.v : edited_v_; }
   [[nodiscard]] std::span<const Vec3> angular_velocities() const { return edited_w_.empty() ? state_.w : edited_w_; }
+  /// Everything that the next cycles depend on and that their outputs accumulate, between two cycles (cycle/persist.cpp). A cycle
+  /// made from the same model that reads what another one wrote goes on with the same bits.
+  void persist(state::Archive& a);
   /// Hash over every bit of the state that influences the future.
   [[nodiscard]] std::uint64_t hash();
 
@@ -66,9 +69,10 @@ class Cycle {
   void check_minimum_step(const elements::Group& group, const elements::GroupResult& result) const;
   void internal_forces(StepLimits& limits);
   void contact_forces(StepLimits& limits);
+  void record_contacts();
   void erode();
   void assemble();
-  void accelerate();
+  void accelerate_again();
   void release_boundary_conditions();
   void book_interfaces();
   void close_balance();
@@ -77,6 +81,7 @@ class Cycle {
   [[nodiscard]] Snapshot snapshot() const;
   [[nodiscard]] Snapshot snapshot_of_cycle();
   void fill_contact_fields();
+  void persist_output_times(state::Archive& a);
   [[nodiscard]] double take_over_edits();
   [[nodiscard]] Id element_id(const elements::Group& group, Index element) const;
 
@@ -102,6 +107,7 @@ class Cycle {
   int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;
+  std::vector<bool> recording_;                            // #recordings: begun
   std::vector<double> contact_stiffness_;                  // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
   ContactArea contact_facets_;
@@ -109,6 +115,7 @@ class Cycle {
   std::vector<contact::NodalContact> contact_state_;
   bool releases_ = false;   // some interface asks for IBC
   bool loaded_ = false;     // there are concentrated or pressure loads; else external forces stay zero
+  bool totals_wanted_ = false;  // bodies, walls or mass scaling read or change the total forces or the masses after assembly
   bool rotations_ = false;  // some node has inertia, or can be turned by a condition
 
   std::unique_ptr<TimeStep> time_step_;
@@ -122,6 +129,7 @@ class Cycle {
   double scaled_energy_ = 0.0;
   double removed_energy_ = 0.0;            // held by deleted elements that their groups no longer count
   std::vector<Vec3> edited_v_, edited_w_;  // #N, empty: nothing was changed
+  double start_work_ = 0.0;                // of gradual starts, a part of the external work
   double edited_work_ = 0.0;               // energy that the caller's changes brought in this cycle
   double booked_work_ = 0.0;               // external work of this cycle as the reference program books it
   int beyond_limit_ = 0;                   // cycles in a row with an energy error beyond the limit

@@ -5,61 +5,54 @@
 namespace abut::cycle {
 
 Ledger::Leaf& Ledger::Leaf::operator+=(const Leaf& b) {
-  kinetic.translation += b.kinetic.translation;
-  kinetic.rotation += b.kinetic.rotation;
-  kinetic.mass += b.kinetic.mass;
-  kinetic.momentum += b.kinetic.momentum;
-  kinetic.leapfrog += b.kinetic.leapfrog;
-  internal_before += b.internal_before;
-  internal_after += b.internal_after;
-  contact_before += b.contact_before;
-  contact_after += b.contact_after;
+  star += b.star;
+  square += b.square;
+  rotation_star += b.rotation_star;
+  rotation_square += b.rotation_square;
+  power_before += b.power_before;
+  power_after += b.power_after;
+  rotation_power_before += b.rotation_power_before;
+  rotation_power_after += b.rotation_power_after;
+  mass += b.mass;
+  for (int k = 0; k < 3; ++k) momentum[k] += b.momentum[k];
   return *this;
 }
 
 KineticSums Ledger::sum(const state::State& s, bool product_form, parallel::ThreadPool& pool) {
-  const double half = 0.5 * s.times.h_minus;
   const double h = s.times.h_bar;
-  // Cycle 0 kicks by half a step from v(0). Potentials are booked by the trapezoidal rule, which gives their first force a
-  // whole step: h~^2 f.a/2 more work than the kick does. The start of the balance takes it off.
-  const bool first = s.times.cycle == 0;
+  MotionArgs args;
+  args.f_internal = &s.f_internal.data()->x;
+  args.f_contact = &s.f_contact.data()->x;
+  args.m_internal = &s.m_internal.data()->x;
+  args.mass = s.mass.data();
+  args.inertia = s.inertia.data();
+  args.a = &s.a.data()->x;
+  args.alpha = &s.alpha.data()->x;
+  args.v = const_cast<double*>(&s.v.data()->x);  // the sums write nothing
+  args.w = rotations_ ? const_cast<double*>(&s.w.data()->x) : nullptr;
+  args.half = 0.5 * s.times.h_minus;
+  args.h_bar = h;
+  const NodeKernels& kernels = node_kernels();
   const Leaf all = parallel::ordered_sum(s.mass.size(), leaves_, pool, [&](std::size_t begin, std::size_t end) {
-    Leaf sum;
-    KineticSums& k = sum.kinetic;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 before = s.v[i], a = s.a[i];
-      const Vec3 after = before + h * a;
-      const Vec3 now = before + half * a;
-      const double m = s.mass[i];
-      const double star = dot(before, after);
-      const double start = first ? dot(before, before) * m - h * h * dot(s.f_contact[i] - s.f_internal[i], a) : m * star;
-      k.translation += 0.5 * (product_form ? start : m * squared_norm(now));
-      k.leapfrog += 0.5 * m * star;
-      k.mass += m;
-      k.momentum += m * now;
-      sum.internal_before += dot(s.f_internal[i], before);
-      sum.internal_after += dot(s.f_internal[i], after);
-      sum.contact_before += dot(s.f_contact[i], before);
-      sum.contact_after += dot(s.f_contact[i], after);
-    }
-    if (!rotations_) return sum;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 before = s.w[i], alpha = s.alpha[i];
-      const Vec3 after = before + h * alpha;
-      const double j = s.inertia[i];
-      const double star = dot(before, after);
-      const double start = first ? dot(before, before) * j + h * h * dot(s.m_internal[i], alpha) : j * star;
-      k.rotation += 0.5 * (product_form ? start : j * squared_norm(before + half * alpha));
-      k.leapfrog += 0.5 * j * star;
-      sum.internal_before += dot(s.m_internal[i], before);
-      sum.internal_after += dot(s.m_internal[i], after);
-    }
-    return sum;
+    Leaf leaf;
+    kernels.sum(args, begin, end, leaf);
+    return leaf;
   });
-  // Internal forces are subtracted from the nodes: their work carries a minus sign.
-  booked_ = 0.5 * h * (all.contact_before - all.internal_before) + second_half_;
-  second_half_ = 0.5 * h * (all.contact_after - all.internal_after);
-  return all.kinetic;
+  KineticSums kinetic;
+  kinetic.translation = 0.5 * (product_form ? all.star : all.square);
+  kinetic.rotation = 0.5 * (product_form ? all.rotation_star : all.rotation_square);
+  if (product_form && s.times.cycle == 0) {
+    // Cycle 0 kicks by half a step from v(0), which v(n) is then. Potentials are booked by the trapezoidal rule, which gives their first
+    // force a whole step: h~^2 f.a/2 more work than the kick does, h~ a = v' - v. The start of the balance takes it off.
+    kinetic.translation = 0.5 * (all.square - h * (all.power_after - all.power_before));
+    kinetic.rotation = 0.5 * (all.rotation_square - h * (all.rotation_power_after - all.rotation_power_before));
+  }
+  kinetic.leapfrog = 0.5 * (all.star + all.rotation_star);
+  kinetic.mass = all.mass;
+  kinetic.momentum = {all.momentum[0], all.momentum[1], all.momentum[2]};
+  booked_ = 0.5 * h * (all.power_before + all.rotation_power_before) + second_half_;
+  second_half_ = 0.5 * h * (all.power_after + all.rotation_power_after);
+  return kinetic;
 }
 
 double Ledger::close(double kinetic, double constraint_work) {

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "cycle/node_kernels.hpp"
 #include "parallel/thread_pool.hpp"
 #include "state/state.hpp"
 
@@ -37,11 +38,14 @@ class Ledger {
   /// constraints. @return T* minus its start minus all works so far: zero to rounding
   double close(double kinetic, double constraint_work);
 
+  void persist(state::Archive& a) {
+    a(second_half_);
+    a(works_);
+    a(start_);
+  }
+
  private:
-  // Terms of one leaf of nodes. Powers of a force f: f.v with the velocity before the kick, and with the one after it.
-  struct Leaf {
-    KineticSums kinetic;
-    double internal_before = 0.0, internal_after = 0.0, contact_before = 0.0, contact_after = 0.0;
+  struct Leaf : KineticLeaf {
     Leaf& operator+=(const Leaf& b);
   };
   std::vector<Leaf> leaves_;

@@ -2,25 +2,34 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
-#include "abut/contact/options.hpp"
 #include "core/profile.hpp"
 #include "cycle/sink.hpp"
+#include "init/contact_options.hpp"
 #include "model/model.hpp"
 
 namespace abut::cycle {
 
 using abut::PhaseTime;
 
+/// A call log (abut/contact/call_log.hpp) of one interface, over part of the run.
+struct ContactRecording {
+  Id interface_id = 0;
+  double from = 0.0, to = 1e30;  ///< times
+  std::ostream* log = nullptr;   ///< binary; must outlive the run
+  std::string label;
+};
+
 struct RunOptions {
   int threads = 1;
   Profile profile;
-  std::optional<contact::Law> interface_law;  ///< overrides the profile's law for every interface
-  int hash_every = 0;                         ///< cycles between state hashes, 0 = none
-  std::vector<PhaseTime>* phases = nullptr;   ///< run() appends the phases here before the sink's end()
+  init::InterfaceChoices contacts;           ///< beyond the cards: normal law, gradual starts
+  std::vector<ContactRecording> recordings;  ///< call logs to be written
+  int hash_every = 0;                        ///< cycles between state hashes, 0 = none
+  std::vector<PhaseTime>* phases = nullptr;  ///< run() appends the phases here before the sink's end()
 };
 
 struct RunReport {

@@ -35,6 +35,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       sections_(model, groups_),
       accelerometers_(model, axes_) {
   const auto n = static_cast<std::size_t>(model.node_count());
+  recording_.assign(options.recordings.size(), false);
   contact_stiffness_.assign(n, 0.0);
   contact_normal_.resize(n);
   contact_tangential_.resize(n);
@@ -44,7 +45,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
 
   walls_.initialise(state_);
   bodies_.initialise(state_);
-  interfaces_ = init::make_interfaces(model, options.profile, options.interface_law, state_);
+  interfaces_ = init::make_interfaces(model, options.profile, options.contacts, state_);
   contact_facets_ = ContactArea(model, interfaces_);
 
   std::vector<std::uint8_t> free_translation(n, 1);
@@ -59,6 +60,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   time_step_ = std::make_unique<TimeStep>(model, options.profile, has_two_sided_interface(model), std::move(free_translation),
                                           std::move(free_rotation));
   loaded_ = !model.concentrated_loads.empty() || !model.pressure_loads.empty();
+  totals_wanted_ = !model.rigid_bodies.empty() || !model.rigid_walls.empty() || model.controls.mass_scaling;
   rotations_ = !model.rigid_bodies.empty() || !model.imposed_motions.empty() ||
                std::any_of(state_.inertia.begin(), state_.inertia.end(), [](double j) { return j > 0.0; });
   ledger_ = Ledger(rotations_);

@@ -66,6 +66,9 @@ class Sink {
   virtual void begin(const Snapshot& first) = 0;  ///< before the first cycle's output, once
   virtual void cycle(const Snapshot& now) = 0;    ///< every cycle, at step 26
   virtual void end(const Outcome& outcome) = 0;   ///< once, also after a failure
+  /// What a later run needs to go on from here: written after a cycle, read before begin(). begin() is then told of the first
+  /// cycle that goes on.
+  virtual void persist(state::Archive& /*archive*/) {}
 };
 
 }  // namespace abut::cycle

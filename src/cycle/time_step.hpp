@@ -37,6 +37,7 @@ class TimeStep {
   /// First node whose mass grew by more than `ratio` of its first one (/STOP); no_index: none, or ratio 0.
   [[nodiscard]] Index first_beyond(double ratio, const state::State& s) const;
   [[nodiscard]] double added_mass() const { return added_mass_; }
+  void persist(state::Archive& a);
 
  private:
   struct Smallest {

@@ -29,6 +29,14 @@ class Assembly {
   /// Doubles that all groups' slots take together.
   [[nodiscard]] std::size_t slot_count() const { return slot_count_; }
 
+  /// For every node where its sums begin: those of shells (8 components) or of solids (4).
+  struct Entries {
+    std::vector<std::uint32_t> first;  ///< #N + 1
+    std::vector<std::uint32_t> at;     ///< component 0 of the entry
+  };
+  [[nodiscard]] const Entries& shells() const { return shells_; }
+  [[nodiscard]] const Entries& solids() const { return solids_; }
+
   /// Totals at node i. @param sums as long as sum_count()
   [[nodiscard]] NodalSum total(const double* sums, std::size_t i) const {
     NodalSum n;
@@ -48,10 +56,6 @@ class Assembly {
   }
 
  private:
-  struct Entries {
-    std::vector<std::uint32_t> first;  ///< #N + 1
-    std::vector<std::uint32_t> at;     ///< component 0 of the entry
-  };
   std::size_t sum_count_ = 0, slot_count_ = 0;
   Entries shells_, solids_;
 };

@@ -158,6 +158,7 @@ struct GroupInput {
   double step_scale = 0.9;    ///< s_e of the Engine deck for this family
   double step_minimum = 0.0;  ///< Tmin with `step_action`
   model::StepControl::Action step_action = model::StepControl::Action::none;
+  bool step_wanted = true;  ///< false: nobody reads GroupResult::step (1e30 then but in the first cycle); saves its roots
 };
 
 [[nodiscard]] std::unique_ptr<Group> make_shell_q4(const GroupInput& in);

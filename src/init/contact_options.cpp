@@ -123,7 +123,7 @@ void variable_gap(const model::Model& model, const model::InterfaceType7& t7, co
 }  // namespace
 
 contact::Options one_sided_options(const model::Model& model, const model::Interface& card, const Profile& profile,
-                                   std::optional<contact::Law> law) {
+                                   const InterfaceChoices& choices) {
   contact::Options o;
   o.stiffness_scale = card.stfac;
   o.friction = card.friction;
@@ -134,7 +134,10 @@ contact::Options one_sided_options(const model::Model& model, const model::Inter
   o.death = window_of(model, card).death;
   o.rules = profile.reference_contact ? contact::Rules::reference() : contact::Rules::standard();
   o.shear_limit = profile.reference_contact ? model::infinity : card.ptlim;
-  if (law) o.rules.law = *law;
+  if (choices.law) o.rules.law = *choices.law;
+  for (const GradualStart& start : choices.starts) {
+    if (start.interface_id == card.id) o.start_duration = start.duration;
+  }
   return o;
 }
 

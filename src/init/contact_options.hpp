@@ -3,17 +3,27 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "abut/contact/both_sides.hpp"
 #include "abut/contact/options.hpp"
+#include "abut/model.hpp"
 #include "core/profile.hpp"
 #include "model/model.hpp"
 
 namespace abut::init {
 
-/// TYPE3 and TYPE5. @param law  overrides the profile's normal law when set
+using abut::GradualStart;
+
+/// What a run asks of its interfaces beyond their cards.
+struct InterfaceChoices {
+  std::optional<contact::Law> law;   ///< overrides the profile's normal law
+  std::vector<GradualStart> starts;  ///< of TYPE3 and TYPE5
+};
+
+/// TYPE3 and TYPE5.
 [[nodiscard]] contact::Options one_sided_options(const model::Model& model, const model::Interface& card, const Profile& profile,
-                                                 std::optional<contact::Law> law);
+                                                 const InterfaceChoices& choices);
 
 /// TYPE7; gaps and sizes from the elements (numerics.md 7.7.1).
 [[nodiscard]] contact::BothSidesOptions both_sides_options(const model::Model& model, const model::Interface& card, const Profile& profile,

@@ -53,7 +53,7 @@ int inacti_of(const model::Interface& card) {
 bool moves_nodes(const model::Interface& card) { return inacti_of(card) == 3 || inacti_of(card) == 4; }
 
 /// One interface; `owners` is needed for the nodes of TYPE5 and where Idel asks for it.
-RunInterface make_interface(const model::Model& model, Index index, const Profile& profile, std::optional<contact::Law> law,
+RunInterface make_interface(const model::Model& model, Index index, const Profile& profile, const InterfaceChoices& choices,
                             const FaceOwners* owners, std::span<const Vec3> x) {
   const model::Interface& card = model.interfaces[static_cast<std::size_t>(index)];
   const FaceOwners* own = card.idel != 0 ? owners : nullptr;
@@ -61,7 +61,7 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
   if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) {
     const model::Surface& first = surface_of(t3->surface_1);
     const model::Surface& second = surface_of(t3->surface_2);
-    const contact::Options options = one_sided_options(model, card, profile, law);
+    const contact::Options options = one_sided_options(model, card, profile, choices);
     RunInterface r{index,
                    contact::Interface::two_surfaces(make_surface(model, first), make_surface(model, second), options),
                    {make_side(model, first, own, x), make_side(model, second, own, x)}};
@@ -73,7 +73,7 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
   }
   if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
     const model::Surface& main = surface_of(t5->surface);
-    const contact::Options options = one_sided_options(model, card, profile, law);
+    const contact::Options options = one_sided_options(model, card, profile, choices);
     RunInterface r{
         index,
         contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(model, main), options),
@@ -116,7 +116,7 @@ std::vector<std::uint8_t> carried_nodes(const model::Model& model, const std::fu
 
 }  // namespace
 
-std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, std::optional<contact::Law> law,
+std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, const InterfaceChoices& choices,
                                           state::State& state) {
   std::optional<FaceOwners> owners;
   if (std::any_of(model.interfaces.begin(), model.interfaces.end(),
@@ -126,7 +126,7 @@ std::vector<RunInterface> make_interfaces(const model::Model& model, const Profi
   std::vector<RunInterface> out;
   for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
     if (moves_nodes(model.interfaces[i])) throw std::logic_error("settle_initial_penetrations() must come before make_interfaces()");
-    out.push_back(make_interface(model, static_cast<Index>(i), profile, law, owners ? &*owners : nullptr, state.x));
+    out.push_back(make_interface(model, static_cast<Index>(i), profile, choices, owners ? &*owners : nullptr, state.x));
   }
   return out;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "core/diagnostic.hpp"
 #include "core/profile.hpp"
 #include "elements/group.hpp"
+#include "init/contact_options.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
@@ -33,10 +33,9 @@ struct RunInterface {
   std::vector<Side> sides;  ///< two for TYPE3, {unused, main} otherwise
 };
 
-/// @param law  overrides the profile's normal law for every interface when set (--interface-law)
 /// @param state  initial state after rigid bodies moved their main nodes
 /// @throws std::logic_error when settle_initial_penetrations() was left out for a model that asks for it
-[[nodiscard]] std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, std::optional<contact::Law> law,
+[[nodiscard]] std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, const InterfaceChoices& choices,
                                                         state::State& state);
 
 /// Moves nodes out of initial penetrations where an interface asks for it (Inacti 3: its nodes, 4: the nodes of the segments;

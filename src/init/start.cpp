@@ -43,6 +43,9 @@ std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& mo
     in.step_scale = control.scale;
     in.step_minimum = control.minimum;
     in.step_action = control.action;
+    // With a nodal step the elements' own steps matter only to those who act on them.
+    const bool nodal = model.controls.nodal_step || profile.system_step != Profile::SystemStep::reference;
+    in.step_wanted = !nodal || control.action != model::StepControl::Action::none;
     groups.push_back(make(in));
   };
   for (std::size_t p = 0; p < parts; ++p) {

@@ -86,7 +86,7 @@ Index read_sensor(BlockReader& r, deck::Columns c, std::string_view field) {
 
 int read_direction(BlockReader& r, deck::Columns c, std::string_view field) {
   constexpr std::array<std::string_view, 6> names{"X", "Y", "Z", "XX", "YY", "ZZ"};
-  const std::string_view text = r.text(c);
+  const std::string_view text = r.text(c, field);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (same_word(text, names[i])) return static_cast<int>(i);
   }

@@ -202,7 +202,7 @@ void read_gravity(Context& c, const deck::Block& block) {
   g.id = r.id();
   r.next_card();
   g.function = read_function(r, {1, 10}, "fct_IDT", false);
-  const std::string_view direction = r.text({11, 20});
+  const std::string_view direction = r.text({11, 20}, "Dir");
   g.direction = same_word(direction, "X") ? 0 : same_word(direction, "Y") ? 1 : 2;
   if (g.direction == 2 && !same_word(direction, "Z")) {
     r.warning("model.bad_direction", {11, 20}, "Dir", fmt::format("'{}' is not X, Y or Z; gravity acts along Z", direction));

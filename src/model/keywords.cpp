@@ -7,13 +7,12 @@
 #include <string>
 
 #include "deck/text.hpp"
+#include "model/keyword_table.hpp"
 #include "model/reader.hpp"
 
 namespace abut::model {
 
 namespace {
-
-enum class Treatment { taken, harmless, refused };
 
 struct Rule {
   std::string_view keyword;
@@ -213,6 +212,16 @@ std::string spelling(const deck::Block& b) {
 }
 
 }  // namespace
+
+std::vector<KeywordSupport> keyword_rules() {
+  std::vector<KeywordSupport> all;
+  for (const Rule& r : rules) {
+    std::string keyword = "/" + std::string(r.keyword);
+    if (!r.type.empty()) keyword += "/" + std::string(r.type);
+    all.push_back({keyword, r.treatment, std::string(r.reason), {}, {}});
+  }
+  return all;
+}
 
 bool is_refused(const deck::Block& block) { return rule_for(block).treatment == refused; }
 

@@ -88,6 +88,7 @@ BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word
   }
   if (has_title && !block.cards.empty()) {
     title_ = deck::printable(deck::trimmed(block.cards.front().text.substr(0, deck::card_width)));
+    titled_ = true;
     next_ = 1;
   }
 }
@@ -106,8 +107,13 @@ std::string_view BlockReader::text(deck::Columns c) const {
   return deck::field_text(card_->text, old_layout(*context_) ? to_old_layout(c) : c);
 }
 
+std::string_view BlockReader::text(deck::Columns c, std::string_view field) {
+  if (context_->field_log != nullptr) context_->field_log->push_back({next_ - (titled_ ? 1 : 0), c, std::string(field)});
+  return text(c);
+}
+
 double BlockReader::real(deck::Columns c, std::string_view field, Dimension d) {
-  const std::string_view s = text(c);
+  const std::string_view s = text(c, field);
   if (s.empty()) return 0.0;
   const std::optional<double> value = deck::parse_real(s);
   if (!value) {
@@ -125,14 +131,14 @@ double BlockReader::real(deck::Columns c, std::string_view field, Dimension d) {
 }
 
 Id BlockReader::integer(deck::Columns c, std::string_view field) {
-  const std::string_view s = text(c);
+  const std::string_view s = text(c, field);
   const std::optional<Id> value = deck::parse_integer(s);
   if (!value) error("deck.bad_integer", c, field, fmt::format("{} is not an integer", quoted(s)));
   return value.value_or(0);
 }
 
 bool BlockReader::flag(int column, std::string_view field) {
-  const std::string_view s = text({column, column});
+  const std::string_view s = text({column, column}, field);
   if (s.empty() || s == "0") return false;
   if (s != "1") error("deck.bad_flag", {column, column}, field, fmt::format("{} is not 0 or 1", quoted(s)));
   return true;
@@ -144,7 +150,7 @@ std::vector<Id> BlockReader::id_list(std::string_view field) {
     const bool foreign = card_->file != block_->file;
     for (int i = 0; i < 10; ++i) {
       const deck::Columns c{10 * i + 1, 10 * i + 10};
-      const std::string_view s = text(c);
+      const std::string_view s = text(c, field);
       const std::optional<Id> id = deck::parse_integer(s);
       if (!id && foreign) {  // text of an included file after the list (H.2, item 3)
         warning("deck.surplus_lines", c, field, fmt::format("the list ends here: {} is not an id", quoted(s)));

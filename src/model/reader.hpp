@@ -45,6 +45,13 @@ struct SolidDefaults {
   int isolid = 1, ismstr = 4, icpre = 0, itetra4 = 1000, imas = 2, iframe = 1;
 };
 
+/// A field that a reader looked at.
+struct FieldUse {
+  std::size_t card = 0;  ///< counted from 1, without the title
+  deck::Columns columns;
+  std::string name;
+};
+
 /// State of one model build.
 struct Context {
   const deck::Deck* deck = nullptr;
@@ -54,10 +61,11 @@ struct Context {
   std::vector<IndexGroup> shell_groups, sh3n_groups, brick_groups, part_groups;
   ShellDefaults shell_defaults;
   SolidDefaults solid_defaults;
-  std::vector<Id> part_subset;            ///< subset id of each part (0: root)
-  std::vector<bool> part_lacks_material;  ///< the card of the part names none
-  Units input;                            ///< units of the deck's values; work units are model->units
-  std::unordered_map<Id, Units> local;    ///< /UNIT/id
+  std::vector<Id> part_subset;                 ///< subset id of each part (0: root)
+  std::vector<bool> part_lacks_material;       ///< the card of the part names none
+  Units input;                                 ///< units of the deck's values; work units are model->units
+  std::unordered_map<Id, Units> local;         ///< /UNIT/id
+  std::vector<FieldUse>* field_log = nullptr;  ///< receives every field that is looked at (keyword_table.hpp); usually none
 
   /// Factor from the deck's value to the work unit, with the local unit system `unit_id` (0: input units of /BEGIN).
   [[nodiscard]] double factor(Dimension d, Id unit_id) const;
@@ -83,6 +91,7 @@ class BlockReader {
   [[nodiscard]] double real(deck::Columns c, std::string_view field, Dimension d = dim::none);
   [[nodiscard]] Id integer(deck::Columns c, std::string_view field);
   [[nodiscard]] std::string_view text(deck::Columns c) const;
+  [[nodiscard]] std::string_view text(deck::Columns c, std::string_view field);
   [[nodiscard]] bool flag(int column, std::string_view field);  ///< one-character 0/1/blank
   [[nodiscard]] bool blank(deck::Columns c) const { return text(c).empty(); }
 
@@ -104,6 +113,7 @@ class BlockReader {
   Id id_ = 0;
   Id unit_id_ = 0;
   std::string title_;
+  bool titled_ = false;  ///< the first card is the title
   std::size_t next_ = 0;
   const deck::Card* card_ = nullptr;
 };

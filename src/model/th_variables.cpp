@@ -74,7 +74,7 @@ const std::array<KindTable, 10>& tables() {
       KindTable{"INTER",
                 {"FNX",  "FNY",   "FNZ",  "FTX",  "FTY",  "FTZ",      "|FNX|",   "|FNY|",   "|FNZ|", "||FN||", "|FX|",  "|FY|",
                  "|FZ|", "||F||", "MX",   "MY",   "MZ",   "CE_ELAST", "CE_FRIC", "CE_DAMP", "CAREA", "SFW",    "QFRIC", "IFNX",
-                 "IFNY", "IFNZ",  "IFTX", "IFTY", "IFTZ", "CE",       "FW",      "DW",      "CX",    "NC"},
+                 "IFNY", "IFNZ",  "IFTX", "IFTY", "IFTZ", "CE",       "FW",      "DW",      "CX",    "NC",     "SW"},
                 {{"DEF", both_forces},
                  {"FN", normal_force},
                  {"FT", tangential_force},

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -243,18 +244,22 @@ std::string Animation::Grid::serialise(const cycle::Snapshot& now) {
   return writer->GetOutputString();
 }
 
-Animation::Animation(RunFolder folder) : folder_(std::move(folder)) {}
+Animation::Animation(RunFolder folder, Opening opening) : folder_(std::move(folder)), opening_(opening) {}
 Animation::~Animation() = default;
 
 void Animation::begin(const cycle::Snapshot& first) {
-  // States of an earlier run in this folder would be mistaken for this one's.
+  // States of an earlier run in this folder would be mistaken for this one's; those of a resumed run that lie beyond the
+  // checkpoint are written again.
   std::error_code ignored;
-  std::filesystem::remove(folder_.animation_index(), ignored);
-  std::filesystem::remove(folder_.contact_surfaces(), ignored);
+  if (opening_ == Opening::fresh) std::filesystem::remove(folder_.animation_index(), ignored);
+  if (opening_ == Opening::fresh) std::filesystem::remove(folder_.contact_surfaces(), ignored);
+  if (opening_ == Opening::resumed && !times_.empty()) write_index();
+  std::set<std::filesystem::path> kept;
+  for (std::size_t k = 0; k < times_.size(); ++k) kept.insert(folder_.animation_state(static_cast<int>(k)).filename());
   std::vector<std::filesystem::path> stale;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.animation_folder(), ignored)) {
     const std::string file = entry.path().filename().string();
-    if (file.starts_with(folder_.name + "_") && file.ends_with(".vtu")) stale.push_back(entry.path());
+    if (file.starts_with(folder_.name + "_") && file.ends_with(".vtu") && !kept.contains(file)) stale.push_back(entry.path());
   }
   for (const auto& path : stale) std::filesystem::remove(path, ignored);
   grid_ = std::make_unique<Grid>(first);
@@ -279,6 +284,12 @@ void Animation::write_index() const {
   }
   text += "  </Collection>\n</VTKFile>\n";
   write_atomically(folder_.animation_index(), text);
+}
+
+void Animation::persist(state::Archive& a) {
+  a.growing(times_);
+  if (a.loading()) return;
+  for (; on_disk_ < times_.size(); ++on_disk_) sync_file(folder_.animation_state(static_cast<int>(on_disk_)));
 }
 
 void Animation::end(const cycle::Outcome&) { grid_.reset(); }

@@ -21,18 +21,21 @@ namespace abut::output {
 /// Field data: TimeValue, cycle.
 class Animation final : public cycle::Sink {
  public:
-  explicit Animation(RunFolder folder);
+  explicit Animation(RunFolder folder, Opening opening = Opening::fresh);
   ~Animation() override;
 
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override;
   void end(const cycle::Outcome& outcome) override;
+  void persist(state::Archive& a) override;
 
  private:
   void write_index() const;
 
   struct Grid;
   RunFolder folder_;
+  Opening opening_;
+  std::size_t on_disk_ = 0;  ///< states that a checkpoint has brought to the disk
   std::unique_ptr<Grid> grid_;
   std::vector<double> times_;  ///< of the states written so far
 };

@@ -27,22 +27,44 @@ double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x
 }  // namespace
 
 void ContactWatch::begin(const cycle::Snapshot& first) {
-  interfaces_.clear();
-  const std::span<const Vec3> x(first.state->x);
-  for (const model::Interface& card : first.model->interfaces) {
-    Watched w;
-    if (!std::holds_alternative<model::InterfaceType7>(card.type)) {
-      w.geometry = std::make_unique<init::InspectedInterface>(*first.model, card, x);
-      const contact::InspectionInput input = w.geometry->input(x);
-      const auto facing = contact::facing(input);
-      w.size = 1e300;
-      for (std::size_t k = 0; k < 2; ++k) {
-        w.facing_at_start[k] = facing[k].fraction();
-        if (!input.side[k].facets.empty()) w.size = std::min(w.size, mean_size(input.side[k].facets, x));
-      }
+  // A run that goes on knows its start: the geometry is made of the model's positions, as it was then.
+  const std::span<const Vec3> x(first.model->node_x);
+  interfaces_.resize(first.model->interfaces.size());
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    const model::Interface& card = first.model->interfaces[i];
+    Watched& w = interfaces_[i];
+    if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
+    w.geometry = std::make_unique<init::InspectedInterface>(*first.model, card, x);
+    if (loaded_) continue;
+    const contact::InspectionInput input = w.geometry->input(x);
+    const auto facing = contact::facing(input);
+    w.size = 1e300;
+    for (std::size_t k = 0; k < 2; ++k) {
+      w.facing_at_start[k] = facing[k].fraction();
+      if (!input.side[k].facets.empty()) w.size = std::min(w.size, mean_size(input.side[k].facets, x));
     }
-    interfaces_.push_back(std::move(w));
   }
+}
+
+void ContactWatch::persist(state::Archive& a) {
+  loaded_ = a.loading();
+  a.each_growing(interfaces_, [&a](Watched& w) {
+    a(w.facing_at_start);
+    a(w.size);
+    for (bool* said : {&w.turned, &w.deep, &w.made, &w.crossed}) a(*said);
+  });
+  a(next_look_);
+  a(next_look_cycle_);
+  a.each_growing(*log_, [&a](RunFinding& f) {
+    Place& p = f.diagnostic.place;
+    for (std::string* text : {&f.diagnostic.code, &f.diagnostic.message, &p.file, &p.keyword, &p.field}) a(*text);
+    for (int* n : {&p.line, &p.first_column, &p.last_column}) a(*n);
+    a(f.interface_id);
+    a(f.time);
+    a(f.cycle);
+    a(f.measure);
+    f.diagnostic.severity = Severity::warning;
+  });
 }
 
 void ContactWatch::cycle(const cycle::Snapshot& now) {

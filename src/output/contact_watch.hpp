@@ -20,6 +20,7 @@ class ContactWatch final : public cycle::Sink {
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override;
   void end(const cycle::Outcome&) override {}
+  void persist(state::Archive& a) override;
 
  private:
   struct Watched {
@@ -31,6 +32,7 @@ class ContactWatch final : public cycle::Sink {
   std::shared_ptr<RunFindings> log_;
   std::vector<Watched> interfaces_;
   double next_look_ = 0.0;
+  bool loaded_ = false;               ///< persist() has told what is known; begin() keeps it
   std::int64_t next_look_cycle_ = 0;  ///< no look before this cycle: a look costs about as much as some cycles
 
   void look(const cycle::Snapshot& now);

@@ -43,9 +43,18 @@ void create_folder(const std::filesystem::path& folder) {
   if (error) fail("create the folder", folder, error.value());
 }
 
-void write_atomically(const std::filesystem::path& path, std::string_view content) {
+namespace {
+
+std::filesystem::path temporary_of(const std::filesystem::path& path) {
   std::filesystem::path temporary = path;
   temporary.replace_filename("." + path.filename().string() + ".part");
+  return temporary;
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  const std::filesystem::path temporary = temporary_of(path);
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
   if (descriptor < 0) fail("write", path, errno);
   int error = write_all(descriptor, content);
@@ -57,8 +66,58 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
   }
 }
 
-AppendFile::AppendFile(std::filesystem::path path) : path_(std::move(path)) {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, open_mode);
+void sync_file(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("write", path, errno);
+  int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error == EINVAL) error = 0;  // a file system that cannot: nothing more can be done
+  if (error != 0) fail("write", path, error);
+}
+
+void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous, std::span<const std::byte> content) {
+  const std::filesystem::path temporary = temporary_of(path);
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
+  if (descriptor < 0) fail("write", path, errno);
+  int error = write_all(descriptor, {reinterpret_cast<const char*>(content.data()), content.size()});
+  if (error == 0 && ::fsync(descriptor) != 0 && errno != EINVAL) error = errno;
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  // A second name, not a rename: `path` names a complete file all the time.
+  if (error == 0 && ::unlink(previous.c_str()) != 0 && errno != ENOENT) error = errno;
+  if (error == 0 && ::link(path.c_str(), previous.c_str()) != 0 && errno != ENOENT) {
+    // No hard links here: between these two renames only `previous` names a file.
+    if (::rename(path.c_str(), previous.c_str()) != 0) error = errno;
+  }
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    fail("write", path, error);
+  }
+  sync_file(path.parent_path().empty() ? std::filesystem::path(".") : path.parent_path());
+}
+
+std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("read", path, errno);
+  std::vector<std::byte> bytes;
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  for (;;) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + piece);
+    const ssize_t got = ::read(descriptor, bytes.data() + size, piece);
+    const int error = errno;
+    bytes.resize(size + static_cast<std::size_t>(got > 0 ? got : 0));
+    if (got < 0 && error == EINTR) continue;
+    if (got > 0) continue;
+    ::close(descriptor);
+    if (got < 0) fail("read", path, error);
+    return bytes;
+  }
+}
+
+AppendFile::AppendFile(std::filesystem::path path, Opening opening) : path_(std::move(path)) {
+  const int start = opening == Opening::fresh ? O_CREAT | O_TRUNC : 0;
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | start | O_APPEND | O_CLOEXEC, open_mode);
   if (descriptor_ < 0) fail("write", path_, errno);
 }
 
@@ -86,6 +145,22 @@ void AppendFile::append(std::string_view piece) {
     fail("write", path_, error);
   }
   good_size_ += static_cast<long long>(piece.size());
+}
+
+void AppendFile::persist(state::Archive& a) {
+  std::int64_t size = good_size_;
+  a(size);
+  if (!a.loading()) {
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) fail("write", path_, errno);
+    return;
+  }
+  const off_t there = ::lseek(descriptor_, 0, SEEK_END);
+  if (size < 0 || there < size) {
+    throw state::ArchiveError(
+        fmt::format("'{}' is shorter than when the checkpoint was written ({} bytes, then {})", path_.string(), there, size));
+  }
+  if (::ftruncate(descriptor_, size) != 0) fail("write", path_, errno);
+  good_size_ = size;
 }
 
 void AppendFile::close() {

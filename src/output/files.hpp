@@ -3,9 +3,15 @@
 // Every failure (unwritable folder, full disk) is a RunError that names the path and the system's reason.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "state/archive.hpp"
 
 namespace abut::output {
 
@@ -20,6 +26,12 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path animation_folder() const { return directory / (name + "_anim"); }
   /// State k (0-based) of the animation.
   [[nodiscard]] std::filesystem::path animation_state(int k) const;
+  /// Newest checkpoint and the one before it.
+  [[nodiscard]] std::filesystem::path checkpoint() const { return directory / (name + ".rst"); }
+  [[nodiscard]] std::filesystem::path previous_checkpoint() const { return directory / (name + "_previous.rst"); }
+  [[nodiscard]] std::filesystem::path contact_calls(std::int64_t interface) const {
+    return directory / (name + "_contact_" + std::to_string(interface) + ".calls");
+  }
   /// Segments of the contact surfaces, as the deck has them.
   [[nodiscard]] std::filesystem::path contact_surfaces() const { return directory / (name + "_contact.vtu"); }
   [[nodiscard]] std::filesystem::path manifest() const { return directory / "run.json"; }
@@ -32,20 +44,35 @@ void create_folder(const std::filesystem::path& folder);
 /// part of it, also when the process is killed. @throws RunError; the temporary file is gone then
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Brings a file's content to the disk (fsync): it survives the machine, not only the process. @throws RunError
+void sync_file(const std::filesystem::path& path);
+
+/// write_atomically() that also survives the machine: content, then name. What was at `path` is kept under `previous`; at every
+/// moment at least one of the two names a complete file. @throws RunError; what was there stays
+void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous, std::span<const std::byte> content);
+
+/// Whole file. @throws RunError
+[[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& path);
+
+enum class Opening { fresh, resumed };
+
 /// A text file that grows by whole pieces (lines). A piece is in the file when append() returns, so a killed run is
 /// readable up to its last line; a piece that does not fit on the disk is taken back.
 class AppendFile {
  public:
   AppendFile() = default;
-  /// Creates or empties the file. @throws RunError
-  explicit AppendFile(std::filesystem::path path);
+  /// Creates or empties the file; resumed: opens what is there, persist() then says where to go on. @throws RunError
+  explicit AppendFile(std::filesystem::path path, Opening opening = Opening::fresh);
   ~AppendFile();
   AppendFile(AppendFile&& other) noexcept;
   AppendFile& operator=(AppendFile&& other) noexcept;
 
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
   void append(std::string_view piece);  ///< @throws RunError
-  void close();                         ///< @throws RunError when the system reports a late write error
+  /// Writing: what is in the file so far is brought to the disk, its length noted. Reading: the file is cut to that length.
+  /// @throws state::ArchiveError when the file is shorter
+  void persist(state::Archive& a);
+  void close();  ///< @throws RunError when the system reports a late write error
 
  private:
   std::filesystem::path path_;

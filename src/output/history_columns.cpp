@@ -193,8 +193,9 @@ Value vector_value(std::string_view variable, std::span<const Result> Snapshot::
 
 Value interface_value(std::string_view variable, Index index) {
   using R = cycle::InterfaceResult;
-  static const std::map<std::string_view, double R::*> scalars{
-      {"CE", &R::ce}, {"FW", &R::fw}, {"DW", &R::dw}, {"CX", &R::cx}, {"CE_ELAST", &R::ce}, {"CE_FRIC", &R::fw}, {"CE_DAMP", &R::dw}};
+  static const std::map<std::string_view, double R::*> scalars{{"CE", &R::ce},      {"FW", &R::fw},     {"DW", &R::dw},
+                                                               {"CX", &R::cx},      {"SW", &R::sw},     {"CE_ELAST", &R::ce},
+                                                               {"CE_FRIC", &R::fw}, {"CE_DAMP", &R::dw}};
   const auto i = static_cast<std::size_t>(index);
   if (variable == "NC") return [i](const Snapshot& s) { return static_cast<double>(s.interfaces[i].in_contact); };
   if (const auto found = scalars.find(variable); found != scalars.end()) {

@@ -37,10 +37,16 @@ std::string list(const std::vector<std::string>& items) {
 
 }  // namespace
 
-Listing::Listing(const RunFolder& folder, RunInfo info) : file_(folder.listing()), info_(std::move(info)) {}
+Listing::Listing(const RunFolder& folder, RunInfo info) : file_(folder.listing(), info.opening()), info_(std::move(info)) {}
 
 void Listing::begin(const cycle::Snapshot& first) {
   record_.begin(first);
+  if (info_.resumed) {
+    lines_ = 0;
+    file_.append(fmt::format("\nRun {} goes on from the checkpoint of cycle {}, time {:.8g}: abut {}, {} threads, {}\n", info_.resumed->run,
+                             info_.resumed->cycle, info_.resumed->time, info_.version, info_.threads, info_.instruction_set));
+    return;
+  }
   std::string text = fmt::format("abut {}{}\n", info_.version, info_.commit.empty() ? "" : fmt::format(" ({})", info_.commit));
   for (const std::string& deck : info_.decks) text += fmt::format("Deck        {}\n", deck);
   text += fmt::format("Settings    profile {}, interface law {}, {} threads, {}, {}\n\n", info_.profile,
@@ -70,6 +76,14 @@ void Listing::cycle(const cycle::Snapshot& now) {
       now.state->times.cycle, now.state->times.t, now.state->times.h_plus, controller_name(now.controller.kind), now.controller.id,
       100.0 * b.err, b.ie, b.ke, b.ker, b.ce + b.fw + b.dw, b.cx, b.extw, mass_error(b));
   file_.append(text);
+}
+
+void Listing::persist(state::Archive& a) {
+  file_.persist(a);
+  record_.persist(a);
+  std::uint64_t said = said_;
+  a(said);
+  said_ = said;
 }
 
 void Listing::end(const cycle::Outcome& outcome) {

@@ -19,6 +19,7 @@ class Listing final : public cycle::Sink {
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override;
   void end(const cycle::Outcome& outcome) override;
+  void persist(state::Archive& a) override;
 
  private:
   AppendFile file_;

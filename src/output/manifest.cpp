@@ -28,13 +28,20 @@ void Manifest::begin(const cycle::Snapshot& first) {
   record_.begin(first);
   Json j;
   j["abut"] = {{"version", info_.version}, {"commit", info_.commit}, {"compiler", info_.compiler}};
-  j["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+  const std::string now =
+      fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+  if (started_.empty()) started_ = now;
+  if (info_.resumed) resumed_.push_back({info_.resumed->cycle, info_.resumed->time, now});
+  j["started"] = started_;
+  j["resumed"] = Json::array();
+  for (const Resumed& r : resumed_) j["resumed"].push_back({{"cycle", r.cycle}, {"time", r.time}, {"at", r.at}});
   j["decks"] = info_.decks;
   j["settings"] = {{"profile", info_.profile},
                    {"interface_law", info_.interface_law.empty() ? Json(nullptr) : Json(info_.interface_law)},
                    {"threads", info_.threads},
                    {"instruction_set", info_.instruction_set},
                    {"hash_every", info_.hash_every}};
+  for (const init::GradualStart& s : info_.contact_ramps) j["settings"]["contact_ramp"][std::to_string(s.interface_id)] = s.duration;
   j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
   j["findings"] = findings_json(info_.findings);
   j["contact"] = contact_json(info_.contact);
@@ -45,6 +52,16 @@ void Manifest::begin(const cycle::Snapshot& first) {
   head_ = json_text(j);
   j["outcome"] = {{"kind", "running"}};
   write_atomically(folder_.manifest(), json_text(j));
+}
+
+void Manifest::persist(state::Archive& a) {
+  record_.persist(a);
+  a(started_);
+  a.each_growing(resumed_, [&a](Resumed& r) {
+    a(r.cycle);
+    a(r.time);
+    a(r.at);
+  });
 }
 
 void Manifest::end(const cycle::Outcome& outcome) {

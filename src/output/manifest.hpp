@@ -13,8 +13,8 @@
 namespace abut::output {
 
 /// Written before the first cycle (outcome "running": that is what a killed run leaves) and at the end, each time as a
-/// whole. Keys: abut, decks, settings, model, findings, contact (findings of the contact inspection with all ids), started, files; at the
-/// end also outcome, timings, energies, worst, hashes (16 hexadecimal digits). Numbers that are not finite become null.
+/// whole. Keys: abut, decks, settings, model, findings, contact (findings of the contact inspection with all ids), started, resumed, files;
+/// at the end also outcome, timings, energies, worst, hashes (16 hexadecimal digits). Numbers that are not finite become null.
 class Manifest final : public cycle::Sink {
  public:
   /// @param timings  asked for at the end; may be empty
@@ -23,13 +23,21 @@ class Manifest final : public cycle::Sink {
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override { record_.cycle(now); }
   void end(const cycle::Outcome& outcome) override;
+  void persist(state::Archive& a) override;
 
  private:
   RunFolder folder_;
   RunInfo info_;
   std::function<std::vector<PhaseTime>()> timings_;
   RunRecord record_;
-  std::string head_;  ///< what begin() wrote, as JSON text
+  std::string head_;     ///< what begin() wrote, as JSON text
+  std::string started_;  ///< when the first session began
+  struct Resumed {
+    std::int64_t cycle = 0;
+    double time = 0.0;
+    std::string at;  ///< when
+  };
+  std::vector<Resumed> resumed_;
 };
 
 }  // namespace abut::output

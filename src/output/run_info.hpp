@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,19 @@
 #include "core/diagnostic.hpp"
 #include "cycle/run.hpp"
 #include "init/contact_inspection.hpp"
+#include "output/files.hpp"
 
 namespace abut::output {
 
 using abut::RunFinding;
 using RunFindings = std::vector<RunFinding>;
+
+/// Where a run goes on.
+struct ResumedFrom {
+  std::int64_t cycle = 0;
+  double time = 0.0;
+  int run = 1;  ///< number of the run that goes on
+};
 
 struct RunInfo {
   std::string version;  ///< of abut
@@ -23,12 +32,16 @@ struct RunInfo {
   std::string instruction_set;  ///< "sse2", "avx2", "avx512"
   int threads = 1;
   std::string profile = "standard";
-  std::string interface_law;       ///< "stiffening", "constant"; empty: the profile's
-  int hash_every = 0;              ///< 0: no state hash
-  std::vector<std::string> decks;  ///< paths of the Starter and Engine decks and their includes
+  std::string interface_law;  ///< "stiffening", "constant"; empty: the profile's
+  std::vector<init::GradualStart> contact_ramps;
+  int hash_every = 0;                  ///< 0: no state hash
+  std::optional<ResumedFrom> resumed;  ///< its files go on, too
+  std::vector<std::string> decks;      ///< paths of the Starter and Engine decks and their includes
   std::vector<Diagnostic> findings;
   std::vector<init::ContactFinding> contact;                              ///< what the inspection found; also among the findings, as text
   std::shared_ptr<RunFindings> during = std::make_shared<RunFindings>();  ///< filled while the run goes on; shared by its outputs
+
+  [[nodiscard]] Opening opening() const { return resumed ? Opening::resumed : Opening::fresh; }
 };
 
 using PhaseTime = cycle::PhaseTime;

@@ -10,15 +10,14 @@
 
 namespace abut::output {
 
-void add_contact_watch(SinkSet& sinks, const RunInfo& info) { sinks.add(std::make_unique<ContactWatch>(info.during)); }
+cycle::Sink* add_contact_watch(SinkSet& sinks, const RunInfo& info) { return sinks.add(std::make_unique<ContactWatch>(info.during)); }
 
-void add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info, std::function<std::vector<PhaseTime>()> timings) {
+std::vector<cycle::Sink*> add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info,
+                                          std::function<std::vector<PhaseTime>()> timings) {
   create_folder(folder.directory);
-  add_contact_watch(sinks, info);  // first: the others write what it says
-  sinks.add(std::make_unique<Listing>(folder, info));
-  sinks.add(std::make_unique<TimeHistory>(folder));
-  sinks.add(std::make_unique<Animation>(folder));
-  sinks.add(std::make_unique<Manifest>(folder, info, std::move(timings)));
+  return {sinks.add(std::make_unique<Listing>(folder, info)), sinks.add(std::make_unique<TimeHistory>(folder, info.opening())),
+          sinks.add(std::make_unique<Animation>(folder, info.opening())),
+          sinks.add(std::make_unique<Manifest>(folder, info, std::move(timings)))};
 }
 
 }  // namespace abut::output

@@ -11,11 +11,13 @@
 
 namespace abut::output {
 
-/// Creates the folder and adds the sinks that fill it: contact watch, listing, time history, animation, manifest (last, so that it
-/// names what the others have closed). @throws RunError naming the path and the reason
-void add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info, std::function<std::vector<PhaseTime>()> timings);
+/// Creates the folder and adds the sinks that fill it: listing, time history, animation, manifest (last, so that it names what
+/// the others have closed). @throws RunError naming the path and the reason
+/// @return the sinks that have files; their persist() says where a resumed run goes on
+std::vector<cycle::Sink*> add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info,
+                                          std::function<std::vector<PhaseTime>()> timings);
 
-/// A run without files: only the watch over the contacts.
-void add_contact_watch(SinkSet& sinks, const RunInfo& info);
+/// The watch over the contacts. It comes before the files, which write what it says.
+cycle::Sink* add_contact_watch(SinkSet& sinks, const RunInfo& info);
 
 }  // namespace abut::output

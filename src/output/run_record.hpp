@@ -41,7 +41,21 @@ class RunRecord {
   [[nodiscard]] Worst worst_error() const { return error_; }
   [[nodiscard]] Worst worst_made() const { return made_; }
   [[nodiscard]] const std::vector<Hash>& hashes() const { return hashes_; }
-  [[nodiscard]] double wall_seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  /// Of all sessions of the run.
+  [[nodiscard]] double wall_seconds() const { return earlier_seconds_ + std::chrono::duration<double>(Clock::now() - start_).count(); }
+  void persist(state::Archive& a) {
+    double seconds = wall_seconds();
+    a(seconds);
+    if (a.loading()) earlier_seconds_ = seconds;
+    for (Worst* worst : {&error_, &made_}) {
+      a(worst->value);
+      a(worst->time);
+    }
+    a.each_growing(hashes_, [&a](Hash& hash) {
+      a(hash.cycle);
+      a(hash.value);
+    });
+  }
   /// Elements times cycles per second of wall time.
   [[nodiscard]] double rate(std::int64_t cycles) const {
     const double seconds = wall_seconds();
@@ -56,6 +70,7 @@ class RunRecord {
   }
   Index elements_ = 0;
   Clock::time_point start_ = Clock::now();
+  double earlier_seconds_ = 0.0;
   state::Balance balance_;
   Worst error_, made_;
   std::vector<Hash> hashes_;

@@ -13,7 +13,10 @@ namespace abut::output {
 /// closes its file, and the first new failure is thrown when all are done.
 class SinkSet final : public cycle::Sink {
  public:
-  void add(std::unique_ptr<cycle::Sink> sink) { entries_.push_back({std::move(sink), false}); }
+  cycle::Sink* add(std::unique_ptr<cycle::Sink> sink) {
+    entries_.push_back({std::move(sink), false});
+    return entries_.back().sink.get();
+  }
 
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override;

@@ -8,6 +8,7 @@ namespace abut::output {
 
 void TimeHistory::begin(const cycle::Snapshot& first) {
   columns_ = make_history_columns(*first.model, ElementLookup(*first.model, first.groups)).columns;
+  if (opening_ == Opening::resumed) return;  // the file has its header
   row_ = "time";
   for (const HistoryColumn& column : columns_) row_ += "," + column.name;
   row_ += '\n';

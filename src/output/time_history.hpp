@@ -15,14 +15,16 @@ namespace abut::output {
 /// cycle() returns.
 class TimeHistory final : public cycle::Sink {
  public:
-  explicit TimeHistory(const RunFolder& folder) : file_(folder.history()) {}
+  explicit TimeHistory(const RunFolder& folder, Opening opening = Opening::fresh) : file_(folder.history(), opening), opening_(opening) {}
 
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override;
   void end(const cycle::Outcome& outcome) override;
+  void persist(state::Archive& a) override { file_.persist(a); }
 
  private:
   AppendFile file_;
+  Opening opening_;
   std::vector<HistoryColumn> columns_;
   std::string row_;
 };

@@ -102,6 +102,13 @@ std::shared_ptr<const Model::Impl> load(const deck::DeckPair& pair, const std::f
   for (const std::string& text : pair.starter.texts) fingerprint.add(text);
   fingerprint.byte(options.orient ? 1 : 0);
   m->fingerprint = fingerprint.value();
+  Fingerprint engines;
+  const auto add_engine = [&](const deck::Deck& deck) {
+    for (const std::string& text : deck.texts) engines.add(text);
+    m->engine_fingerprint.push_back(engines.value());
+  };
+  add_engine(pair.engine);
+  for (const deck::Deck& deck : pair.restarts) add_engine(deck);
   describe_parts(*m);
   m->read_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return m;
@@ -168,11 +175,22 @@ ElementTable Model::elements(ElementKind kind) const {
 
 Profile run::profile_of(Rules rules) { return rules == Rules::reference ? Profile::reference() : Profile::standard(); }
 
+std::string run::law_name(const Choices& choices) {
+  if (!choices.interface_law) return {};
+  return *choices.interface_law == contact::Law::constant ? "constant" : "stiffening";
+}
+
+std::optional<contact::Law> run::law_of(std::string_view name) {
+  if (name.empty()) return std::nullopt;
+  if (name != "constant" && name != "stiffening") throw state::ArchiveError("the checkpoint is damaged (contact law)");
+  return name == "constant" ? contact::Law::constant : contact::Law::stiffening;
+}
+
 cycle::RunOptions run::options_of(const Choices& choices, int threads) {
   cycle::RunOptions options;
   options.threads = threads;
   options.profile = profile_of(choices.rules);
-  options.interface_law = choices.interface_law;
+  options.contacts = {choices.interface_law, choices.gradual_starts};
   return options;
 }
 

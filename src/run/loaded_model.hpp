@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "abut/model.hpp"
@@ -21,6 +23,7 @@ struct Model::Impl {
   ReadOptions options;
   int last_run = 1;
   std::uint64_t fingerprint = 0;
+  std::vector<std::uint64_t> engine_fingerprint;  ///< of Engine decks 1 to n, for n = 1, 2, ...
   std::vector<PartInfo> parts;
   std::vector<SurfaceInfo> surfaces;
   std::vector<InterfaceInfo> interfaces;
@@ -30,6 +33,9 @@ struct Model::Impl {
 namespace run {
 
 [[nodiscard]] Profile profile_of(Rules rules);
+/// "", "stiffening" or "constant", and back. @throws state::ArchiveError for another word
+[[nodiscard]] std::string law_name(const Choices& choices);
+[[nodiscard]] std::optional<contact::Law> law_of(std::string_view name);
 /// Options of the mechanics for these choices.
 [[nodiscard]] cycle::RunOptions options_of(const Choices& choices, int threads);
 

@@ -14,4 +14,9 @@ void MemoryHistory::cycle(const cycle::Snapshot& now) {
   for (const output::HistoryColumn& column : columns_) history_.values.push_back(column.value(now));
 }
 
+void MemoryHistory::persist(state::Archive& a) {
+  a.each_growing(history_.names, [&a](std::string& name) { a(name); });
+  a.growing(history_.values);
+}
+
 }  // namespace abut::run

@@ -16,6 +16,7 @@ class MemoryHistory final : public cycle::Sink {
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override;
   void end(const cycle::Outcome&) override {}
+  void persist(state::Archive& a) override;
 
  private:
   History& history_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -34,11 +35,6 @@ std::string compiler_name() {
 #endif
 }
 
-std::string name_of(const std::optional<contact::Law>& law) {
-  if (!law) return {};
-  return *law == contact::Law::constant ? "constant" : "stiffening";
-}
-
 }  // namespace
 
 output::RunInfo run::program_info() {
@@ -50,8 +46,40 @@ output::RunInfo run::program_info() {
   return info;
 }
 
-Run::Impl::Impl(const Model& model_, const RunSettings& settings_) : model(model_), settings(settings_) {
+namespace {
+
+/// The interface of a choice that names one. @throws RunError naming the choice when the model has no such interface
+const model::Interface& interface_of(const Model& model, Id id, std::string_view choice) {
+  for (const model::Interface& i : model.impl().model.interfaces) {
+    if (i.id == id) return i;
+  }
+  throw RunError(fmt::format("{} of interface {}: the deck has no such interface", choice, id));
+}
+
+void check_choices(const Model& model, const RunSettings& settings) {
+  for (const GradualStart& start : settings.choices.gradual_starts) {
+    if (std::holds_alternative<model::InterfaceType7>(interface_of(model, start.interface_id, "gradual start").type)) {
+      throw RunError(fmt::format("gradual start of interface {}: it is of TYPE7, which has Inacti 5 and 6 for initial penetrations",
+                                 start.interface_id));
+    }
+    if (!(start.duration >= 0.0)) throw RunError(fmt::format("gradual start of interface {}: the time is negative", start.interface_id));
+  }
+  std::set<Id> recorded;
+  for (const ContactRecording& r : settings.recordings) {
+    (void)interface_of(model, r.interface_id, "recording");
+    if (!recorded.insert(r.interface_id).second)
+      throw RunError(fmt::format("recording of interface {}: it is asked for twice", r.interface_id));
+  }
+  if (!settings.recordings.empty() && settings.output.empty()) throw RunError("recordings of interfaces need a run folder");
+}
+
+}  // namespace
+
+Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoint* from, bool resume)
+    : model(model_), settings(settings_) {
+  if (settings.checkpoint_every <= 0) settings.checkpoint_every = model.impl().model.controls.restart_every;
   if (settings.threads <= 0) settings.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  check_choices(model, settings);
   before.push_back({"read", model.impl().read_seconds});
   auto phase = Clock::now();
   inspection = model.inspect(settings.choices);
@@ -65,28 +93,46 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_) : model(model
   info = run::program_info();
   info.threads = settings.threads;
   info.profile = settings.choices.rules == Rules::reference ? "reference" : "standard";
-  info.interface_law = name_of(settings.choices.interface_law);
+  info.interface_law = run::law_name(settings.choices);
+  info.contact_ramps = settings.choices.gradual_starts;
   info.hash_every = settings.hash_every;
   info.decks.assign(model.files().begin(), model.files().end());
   info.findings = findings.all();
   info.contact = inspection.contact;
 
-  open_outputs();
   phase = Clock::now();
   cycle::RunOptions options = run::options_of(settings.choices, settings.threads);
   options.hash_every = settings.hash_every;
+  call_logs_.resize(settings.recordings.size());
+  for (std::size_t k = 0; k < settings.recordings.size(); ++k) {
+    const ContactRecording& r = settings.recordings[k];
+    options.recordings.push_back({r.interface_id, r.from, r.to, &call_logs_[k],
+                                  fmt::format("{}, deck {}, interface {}", version_text(), model.name(), r.interface_id)});
+  }
   cycle = std::make_unique<cycle::Cycle>(model.impl().model, options);
+  if (resume) info.resumed = {from->info.cycle, from->info.time, model.run_number()};
+  if (from != nullptr) {
+    // The state before any file: a checkpoint that does not fit leaves the files as they are.
+    cycle->persist(from->archive);
+    if (cycle->hash() != from->info.hash) throw state::ArchiveError("the state in it is not the one that was saved");
+  }
+  open_outputs();
+  if (from != nullptr) restore_outputs(*from, resume);
   before.push_back({"init", seconds_since(phase)});
   start = Clock::now();
 }
 
 void Run::Impl::open_outputs() {
-  if (settings.output.empty()) {
-    output::add_contact_watch(sinks, info);
-  } else {
-    output::add_run_outputs(sinks, {settings.output, model.name()}, info, [this] { return timings(); });
+  watch_ = output::add_contact_watch(sinks, info);
+  if (!settings.output.empty()) {
+    files_ = output::add_run_outputs(sinks, {settings.output, model.name()}, info, [this] { return timings(); });
   }
-  if (settings.record_history) sinks.add(std::make_unique<run::MemoryHistory>(history));
+  for (std::size_t k = 0; k < call_logs_.size(); ++k) {
+    const std::filesystem::path path = output::RunFolder{settings.output, model.name()}.contact_calls(settings.recordings[k].interface_id);
+    call_logs_[k].open(path, std::ios::binary);
+    if (!call_logs_[k]) throw RunError("cannot write '" + path.string() + "'");
+  }
+  if (settings.record_history) memory_ = sinks.add(std::make_unique<run::MemoryHistory>(history));
   if (settings.progress) sinks.add(std::make_unique<output::Progress>(output::console_progress()));
 }
 
@@ -113,12 +159,17 @@ bool Run::Impl::advance() {
     finish(Outcome::Kind::failed, error.what());
     throw;
   }
-  if (cycle->finished()) finish(Outcome::Kind::finished, "the final time is reached");
+  if (cycle->finished()) {
+    finish(Outcome::Kind::finished, "the final time is reached");
+  } else if (settings.checkpoint_every > 0 && cycle->state().times.cycle % settings.checkpoint_every == 0) {
+    keep_checkpoint();
+  }
   return true;
 }
 
 const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
   if (over) return outcome;
+  if (kind != Outcome::Kind::failed) keep_checkpoint();
   over = true;
   outcome = {kind, std::string(message), cycle->state().times.cycle, cycle->state().times.t};
   try {

@@ -2,7 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,13 +19,51 @@
 
 namespace abut {
 
+namespace run {
+
+/// Who wrote a checkpoint, of what, and where it was: the first part of its content.
+struct CheckpointInfo {
+  std::string version, commit;
+  std::string name;  ///< of the model
+  std::string deck;  ///< absolute path of the Starter deck; empty: from text
+  std::uint64_t fingerprint = 0, engine_fingerprint = 0;
+  std::int32_t run = 1;
+  bool reference = false, orient = false, allow_findings = false;
+  std::string law;
+  std::vector<Id> started;  ///< interfaces with a gradual start
+  std::vector<double> start_durations;
+  std::int32_t hash_every = 0, checkpoint_every = 0;
+  std::int64_t cycle = 0;
+  double time = 0.0;
+  std::uint64_t hash = 0;  ///< Cycle::hash() of the state that follows
+
+  void persist(state::Archive& a);
+};
+
+[[nodiscard]] std::vector<GradualStart> starts_of(const CheckpointInfo& info);
+
+/// A checkpoint in memory: whole by its checksum, its first part read.
+struct Checkpoint {
+  std::vector<std::byte> file;
+  state::Archive archive;  ///< behind the first part
+  CheckpointInfo info;
+
+  /// @throws state::ArchiveError when it is damaged; RunError when it is of another version of abut
+  explicit Checkpoint(const std::filesystem::path& path);
+};
+
+}  // namespace run
+
 struct Run::Impl {
-  Impl(const Model& model, const RunSettings& settings);
+  /// @param from  the state to begin with; null: the model's
+  /// @param resume  the files of the checkpoint's run go on
+  Impl(const Model& model, const RunSettings& settings, run::Checkpoint* from = nullptr, bool resume = false);
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   bool advance();
   const Outcome& finish(Outcome::Kind kind, std::string_view message);
+  void save(const std::filesystem::path& path, const std::filesystem::path& previous);
   [[nodiscard]] std::vector<PhaseTime> timings() const;
 
   Model model;
@@ -33,10 +76,19 @@ struct Run::Impl {
   History history;
   Outcome outcome;
   bool over = false;
+  bool told_checkpoint = false;                 ///< a checkpoint could not be written, and that was said
   std::chrono::steady_clock::time_point start;  ///< of the cycles
 
  private:
   void open_outputs();
+  void restore_outputs(run::Checkpoint& from, bool resume);
+  void keep_checkpoint();
+  [[nodiscard]] run::CheckpointInfo checkpoint_info();
+
+  cycle::Sink* watch_ = nullptr;
+  cycle::Sink* memory_ = nullptr;  ///< null: not asked for
+  std::vector<cycle::Sink*> files_;
+  std::vector<std::ofstream> call_logs_;  ///< per RunSettings::recordings
 };
 
 namespace run {

@@ -94,6 +94,15 @@ ABUT_INLINE Pack<W> select(Mask<W> c, Pack<W> a, Pack<W> b) {
 }
 template <int W>
 ABUT_INLINE bool any(Mask<W> a) {
+  if constexpr (W == 2) {
+#if defined(__SSE2__)
+    return _mm_movemask_pd((__m128d)a.m) != 0;
+#endif
+  } else if constexpr (W == 4) {
+#if defined(__AVX__)
+    return _mm256_movemask_pd((__m256d)a.m) != 0;
+#endif
+  }
   std::int64_t s = 0;
   for (int i = 0; i < W; ++i) s |= a.m[i];
   return s != 0;

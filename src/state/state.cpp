@@ -13,4 +13,18 @@ State State::zeros(Index n) {
   return s;
 }
 
+void State::persist(Archive& a) {
+  a(times.cycle);
+  a(times.t);
+  a(times.h_minus);
+  a(times.h_plus);
+  a(times.h_bar);
+  a(times.h_bar_old);
+  for (std::vector<Vec3>* array :
+       {&x, &v, &w, &u, &this->a, &alpha, &f, &m, &f_internal, &m_internal, &f_external, &m_external, &f_contact}) {
+    a.fixed(*array);
+  }
+  for (std::vector<double>* array : {&mass, &inertia, &stiffness, &rotational_stiffness}) a.fixed(*array);
+}
+
 }  // namespace abut::state

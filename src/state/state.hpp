@@ -7,6 +7,7 @@
 #include "abut/results.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
+#include "state/archive.hpp"
 
 namespace abut::state {
 
@@ -39,6 +40,7 @@ struct State {
 
   /// Zero state of n nodes.
   [[nodiscard]] static State zeros(Index n);
+  void persist(Archive& a);
   [[nodiscard]] Index size() const { return static_cast<Index>(mass.size()); }
 };
 

@@ -6,7 +6,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 OWN = ["bars", "plates", "plates_gap0", "plates_plastic", "slide", "cyl", "mixed", "stack", "press", "press_slip"]
 THIRD_PARTY = ["INT357", "FRICT41", "BOX1BL", "CT3AV4", "BLOCK", "CONV_ELS"]
-EXAMPLES = ["plate_drop", "block_on_block"]
+EXAMPLES = ["plate_drop", "block_on_block", "slope", "press_fit", "drop_type7", "drop_type3"]
 
 
 def shared_folder():

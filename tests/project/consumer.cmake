@@ -1,5 +1,5 @@
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -DGENERATOR=... -DKIND=installed|subdirectory -P consumer.cmake
-# Installs abut into a fresh prefix (KIND installed), then configures, builds and runs the consumer against it.
+# Installs abut into a fresh prefix (KIND installed), then configures, builds and runs the consumer and examples/embed against it.
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 
@@ -27,3 +27,4 @@ if(EXISTS ${WORK}/build/consumer_run)
 elseif(KIND STREQUAL "installed" AND EXISTS ${WORK}/prefix/lib/cmake/abut/abutTargets.cmake)
   message(FATAL_ERROR "abut::abut is installed and was not used")
 endif()
+run(${WORK}/build/embed/embed ${WORK}/embed.calls)

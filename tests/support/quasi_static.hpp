@@ -90,8 +90,8 @@ class StaticRecord final : public cycle::Sink {
 /// Runs to `time`; the last cycle's forces are kept.
 inline StaticRecord solve_static(Scene& scene, double time, const cycle::RunOptions& options = {}) {
   scene.end(time);
-  scene.model.controls.animation_start = 0.999 * time;
-  scene.model.controls.animation_interval = 1e-4 * time;
+  scene.model.controls.animation_start = 0.98 * time;
+  scene.model.controls.animation_interval = 1e-6 * time;
   StaticRecord record;
   (void)cycle::run(scene.model, options, record);
   return record;

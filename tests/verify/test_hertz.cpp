@@ -115,9 +115,12 @@ Answer energies_of(const Scene& scene, const StaticRecord& r, double ramp) {
   a.hourglass = last.he / last.ie;
   a.bricks = static_cast<int>(scene.model.bricks.size());
   a.cycles = static_cast<int>(r.energies.size());
+  return a;
+}
+
+void expect_static(const Answer& a) {
   EXPECT_LT(a.kinetic, 0.01);
   EXPECT_LT(a.hourglass, 0.01);
-  return a;
 }
 
 // ---- spheres ------------------------------------------------------------------------------------------------------
@@ -242,7 +245,9 @@ TEST(Hertz, SpheresConvergeToForceRadiusAndPressure) {
     Spheres c;
     c.lower = n;
     c.upper = n - 1;
-    const Shares share = compare(c, press(c, n == 9 ? "hertz_spheres" : ""));
+    const Answer a = press(c, n == 9 ? "hertz_spheres" : "");
+    expect_static(a);
+    const Shares share = compare(c, a);
     EXPECT_NEAR(share.force, 1.0, 0.03) << n;
     EXPECT_LT(std::abs(share.radius - 1.0), radius_error) << n;
     EXPECT_LT(std::abs(share.pressure - 1.0), pressure_error) << n;
@@ -258,22 +263,30 @@ TEST(HertzFull, SpheresOnAFinerMesh) {
   c.lower = 13;
   c.upper = 12;
   const Answer a = press(c, "");
+  expect_static(a);
   const Shares share = compare(c, a);
   EXPECT_NEAR(share.force, 1.0, 0.03);
   EXPECT_NEAR(share.radius, 1.0, 0.03);
   EXPECT_NEAR(share.pressure, 1.0, 0.05);
 }
 
-// The default s and what "less the springs' share" can do: the springs are as soft as a layer of 1.2 bricks, the pressure is
-// no longer elliptic.
+// What "less the springs' share" can do: at s = 1 the springs are as soft as a quarter of a brick, the pressure is no longer
+// elliptic. At the default s = 0.2 they give by more than a brick under this pressure (p0/B = 0.17), and the surfaces warp
+// (hourglass): s has to be raised where the pressure is a large part of the bulk modulus.
 TEST(HertzFull, SpheresWithSofterSprings) {
   double error = 1e30;
   for (const double s : {0.2, 1.0, 4.0, 10.0}) {
     Spheres c;
     c.s = s;
-    const Shares share = compare(c, press(c, ""));
-    if (s <= 4.0) { EXPECT_LT(std::abs(share.pressure - 1.0), error) << s; }
-    error = std::abs(share.pressure - 1.0);
+    const Answer a = press(c, "");
+    const Shares share = compare(c, a);
+    if (s < 1.0) {
+      EXPECT_GT(a.penetration, c.fine / c.lower);
+      continue;
+    }
+    expect_static(a);
+    EXPECT_LT(std::abs(share.radius - 1.0), error) << s;
+    error = std::abs(share.radius - 1.0);
   }
 }
 
@@ -391,6 +404,7 @@ TEST(Hertz, CylindersConvergeToWidthAndPressure) {
   for (const double brick : {0.8, 0.5, 0.35}) {
     c.brick = brick;
     const Answer a = press(c, brick == 0.35 ? "hertz_cylinders" : "");
+    expect_static(a);
     const Shares share = compare(c, a);
     EXPECT_NEAR(share.force, 1.0, 0.015) << brick;
     EXPECT_NEAR(share.radius, 1.0, 0.03) << brick;
@@ -407,7 +421,9 @@ TEST(Hertz, CylindersConvergeToWidthAndPressure) {
 TEST(HertzFull, CylindersOnAFinerMesh) {
   Cylinders c;
   c.brick = 0.2;
-  const Shares share = compare(c, press(c, ""));
+  const Answer a = press(c, "");
+  expect_static(a);
+  const Shares share = compare(c, a);
   EXPECT_NEAR(share.radius, 1.0, 0.02);
   EXPECT_NEAR(share.pressure, 1.0, 0.03);
 }

@@ -12,9 +12,12 @@
 namespace abut::contact {
 
 struct NormalLaw {
-  double gap = 0.0;  ///< <= 0: constant law
+  double gap = 0.0;     ///< <= 0: constant law
+  bool capped = false;  ///< without the tangent beyond the bend: what a spring of hard_stiffness() from there on leaves over
 
   static constexpr double bend = 0.9;
+  /// Slope beyond the bend.
+  [[nodiscard]] static constexpr double hard_stiffness() { return 1.0 / ((1.0 - bend) * (1.0 - bend)); }
 
   [[nodiscard]] constexpr bool stiffens() const { return gap > 0.0; }
 
@@ -23,14 +26,15 @@ struct NormalLaw {
     if (!stiffens()) return p;
     const double u = p / gap;
     if (u <= bend) return gap * u / (1.0 - u);
-    return gap * (bend / (1.0 - bend) + (u - bend) / ((1.0 - bend) * (1.0 - bend)));
+    return gap * (bend / (1.0 - bend) + (capped ? 0.0 : (u - bend) * hard_stiffness()));
   }
 
   [[nodiscard]] constexpr double tangent(double p) const {
     if (p <= 0.0) return 0.0;
     if (!stiffens()) return 1.0;
-    const double rest = 1.0 - (p / gap < bend ? p / gap : bend);
-    return 1.0 / (rest * rest);
+    const double u = p / gap;
+    if (u > bend) return capped ? 0.0 : hard_stiffness();
+    return 1.0 / ((1.0 - u) * (1.0 - u));
   }
 
   [[nodiscard]] constexpr double potential(double p) const {
@@ -39,7 +43,7 @@ struct NormalLaw {
     const double u = p / gap;
     if (u <= bend) return gap * gap * minus_u_minus_log(u);
     const double over = u - bend;
-    const double slope = 1.0 / ((1.0 - bend) * (1.0 - bend));
+    const double slope = capped ? 0.0 : hard_stiffness();
     return gap * gap * (minus_u_minus_log(bend) + over * (bend / (1.0 - bend) + 0.5 * over * slope));
   }
 

@@ -44,7 +44,12 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   path.include(held.x()[at(i)] + flight);
   double largest = 0.0;
   candidates_.near(path, options_.gap + 2.0 * surface_step_,
-                   [&](Index f) { largest = std::max(largest, plain_stiffness(held, surface, i, f)); });
+                   [&](Index f) {
+                     // The boxes of the lists are as old as the lists: only those of now may count.
+                     Bounds box = facet_bounds(surface.patch(f));
+                     box.inflate(options_.gap + 2.0 * surface_step_);
+                     if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
+                   });
   held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
@@ -62,7 +67,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
-  if (options_.gap > 0.0) totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
+  // What is said of nodes that are not in contact must not depend on how old the lists are: a node that far() passes over closes in by
+  // less than a quarter of its way to the gap in a step. Here: only nodes that come nearer than that.
+  if (options_.gap > 0.0 && -motion.rate * host.dt >= -0.25 * penetration) {
+    totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
+  }
   // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
   const double grown = growth(before);
   const double closing = -motion.rate + (grown > 0.0 && host.dt > 0.0 ? grown / host.dt : 0.0);
@@ -98,7 +107,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     }
     if (law_.stiffens() && closing > 0.0) {
       const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);
-      if (0.5 * room / closing < totals.kinematic_step) {
+      const bool soon = host.dt <= 0.0 || 0.5 * room < 2.0 * host.dt * closing;
+      if (soon && 0.5 * room / closing < totals.kinematic_step) {
         totals.kinematic_step = 0.5 * room / closing;
         totals.kinematic_node = held.nodes()[at(i)];
       }

@@ -32,7 +32,7 @@ struct Switched {
 };
 
 /// @param first  contact began in the last step
-[[nodiscard]] inline Switched switched_force(const Switching& s, bool first) {
+[[nodiscard]] inline Switched switched_spring(const Switching& s, bool first) {
   const auto force = [&s](double p) { return s.stiffness * s.law.force(p); };
   const auto missing = [&](double p, double moved) { return s.stiffness * s.law.potential(p) - 0.5 * force(p) * moved; };
   const double plain = force(s.penetration);
@@ -70,6 +70,22 @@ struct Switched {
     f = 2.0 * work / (outwards + next);
   }
   return {f, work - 0.5 * f * outwards};
+}
+
+/// The same for the whole law: a stiffening law that is passed beyond its bend is two springs, and the hard one is switched on and
+/// off at the bend as the soft one is at the surface.
+[[nodiscard]] inline Switched switched_force(const Switching& s, bool first) {
+  if (!s.law.stiffens()) return switched_spring(s, first);
+  const double hard = s.penetration - NormalLaw::bend * s.law.gap;
+  Switching near = s;
+  near.law.capped = true;
+  if (hard <= 0.0) return switched_spring(near, first);
+  Switching far{NormalLaw{}, s.stiffness * NormalLaw::hard_stiffness(), hard, s.step, s.rate, s.inverse_mass, s.others};
+  near.others += s.inverse_mass * far.stiffness * hard;
+  const Switched soft = switched_spring(near, first);
+  far.others += s.inverse_mass * soft.force;
+  const Switched rest = switched_spring(far, true);
+  return {soft.force + rest.force, soft.stored + rest.stored};
 }
 
 }  // namespace abut::contact

@@ -89,13 +89,14 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
   const std::int32_t* offsets = task.offsets + static_cast<std::ptrdiff_t>(block) * 64 + lane;
 
   // ---- gather
-  Vec<R> x[8], v[8];
-  for (int k = 0; k < 8; ++k) {
-    x[k] = simd::gather3(task.x, offsets + 8 * k, R());
-    v[k] = simd::gather3(task.v, offsets + 8 * k, R());
-  }
-  BrickModes<R> m = brick_modes(x);
   R face = zero;
+  BrickModes<R> m;
+  {
+    Vec<R> x[8];
+    for (int k = 0; k < 8; ++k) x[k] = simd::gather3(task.x, offsets + 8 * k, R());
+    m = brick_modes(x);
+    if (c.reference_step && !c.small_strain) face = largest_face(x);
+  }
   Matrix<R> frame{};
   if constexpr (Corotational) {
     frame = brick_frame(m.eta, m.zeta, m.xi);
@@ -118,10 +119,13 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     m.g2 = {state.get(f + 12), state.get(f + 13), state.get(f + 14)};
     m.g3 = {state.get(f + 15), state.get(f + 16), state.get(f + 17)};
     face = state.get(f + 18);
-  } else if (c.reference_step) {
-    face = largest_face(x);
   }
-  BrickModes<R> w = brick_modes(v);
+  BrickModes<R> w;
+  {
+    Vec<R> v[8];
+    for (int k = 0; k < 8; ++k) v[k] = simd::gather3(task.v, offsets + 8 * k, R());
+    w = brick_modes(v);
+  }
   if constexpr (Corotational) {
     w.xi = apply(frame, w.xi);
     w.eta = apply(frame, w.eta);
@@ -206,11 +210,11 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     const R viscosity = per_mass * (cl + R(2.0) * cq * fastest);
     t.hourglass = eight * viscosity;
     if (c.orthogonal_hourglass) t.mixed = viscosity * (dot(m.g1, m.g1) + dot(m.g2, m.g2) + dot(m.g3, m.g3)) * g;
-    inverse_step = bound_inverse_step(t);
+    inverse_step = c.step_wanted || !(dt > 0.0) ? bound_inverse_step(t) : zero;
     stiffness = R(1.0 / 16.0) * mass * effective_eigenvalue(t, dt > 0.0 ? R(inv_dt) : inverse_step);
   }
   // A NaN compares false: what is not below the limit is bad.
-  const auto bad = !(sound & (inverse_step < R(1e30)) & (simd::abs(state.get(f_energy)) < R(1e300)));
+  const auto bad = !(sound & (inverse_step < R(1e30)) & (stiffness < R(1e300)) & (simd::abs(state.get(f_energy)) < R(1e300)));
   book(c, state, block, lane, inverse_step, bad, sums);
   const auto acts = state.get(f_live) > zero;
 

@@ -99,12 +99,7 @@ ABUT_INLINE ShellStep<T> c0_step_bound(const ShellSection& s, const C0Geometry<T
   }
   T c = zero;
   if (s.membrane_damping > 0.0) { c = t_per_a * T(s.membrane_damping) * sqrt(g.area) * damping_eigenvalue(trace, det); }
-  ShellStep<T> out;
-  out.step = stable_step(k, c);
-  out.per_mass = half * (k + viscous_stiffness(c, out.step, h));
-  out.stiffness = zero;
-  out.rotational = zero;
-  return out;
+  return bounded_step(s.step_wanted, k, c, h);
 }
 
 template <class T>

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "elements/shell_common/section.hpp"
+#include "simd/gather.hpp"
 #include "simd/pack.hpp"
 
 namespace abut::elements {
@@ -60,29 +61,10 @@ ABUT_INLINE Vec<T> cross(Vec<T> a, Vec<T> b) {
 }
 
 /// Vector of node `nodes[lane]` for each lane.
-ABUT_INLINE Vec<double> gather(double /*type*/, const double* base, const std::int32_t* nodes) {
-  const double* p = base + nodes[0];
-  return {p[0], p[1], p[2]};
-}
-template <int W>
-ABUT_INLINE Vec<simd::Pack<W>> gather(simd::Pack<W> /*type*/, const double* base, const std::int32_t* nodes) {
-  using R = typename simd::VectorOf<W>::real;
-  if constexpr (W == 2) {
-    const double *a = base + nodes[0], *b = base + nodes[1];
-    return {simd::Pack<W>(R{a[0], b[0]}), simd::Pack<W>(R{a[1], b[1]}), simd::Pack<W>(R{a[2], b[2]})};
-  } else if constexpr (W == 4) {
-    const double *a = base + nodes[0], *b = base + nodes[1], *c = base + nodes[2], *d = base + nodes[3];
-    return {simd::Pack<W>(R{a[0], b[0], c[0], d[0]}), simd::Pack<W>(R{a[1], b[1], c[1], d[1]}), simd::Pack<W>(R{a[2], b[2], c[2], d[2]})};
-  } else {
-    R x, y, z;
-    for (int i = 0; i < W; ++i) {
-      const double* p = base + nodes[i];
-      x[i] = p[0];
-      y[i] = p[1];
-      z[i] = p[2];
-    }
-    return {simd::Pack<W>(x), simd::Pack<W>(y), simd::Pack<W>(z)};
-  }
+template <class T>
+ABUT_INLINE Vec<T> gather(T type, const double* base, const std::int32_t* nodes) {
+  const simd::Triple<T> a = simd::gather3(base, nodes, type);
+  return {a.x, a.y, a.z};
 }
 
 }  // namespace abut::elements

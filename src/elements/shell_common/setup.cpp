@@ -112,6 +112,7 @@ std::optional<ShellSection> make_section(const GroupInput& in, bool mean_yield) 
   const auto* shell = std::get_if<model::ShellProperty>(&property.data);
   if (shell == nullptr) { throw std::invalid_argument("property " + std::to_string(property.id) + " is not a shell property"); }
   ShellSection s;
+  s.step_wanted = in.step_wanted;
   const auto* johnson_cook = std::get_if<model::LawJohnsonCook>(&material.law);
   const auto* elastic = std::get_if<model::LawElastic>(&material.law);
   s.elastic = johnson_cook != nullptr ? materials::ShellElastic::of(johnson_cook->young, johnson_cook->poisson)

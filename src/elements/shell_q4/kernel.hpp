@@ -53,46 +53,73 @@ ABUT_INLINE void store_slot(double* slot, int component, T value) {
 
 }  // namespace q4_detail
 
-/// The NumberTraits<T>::width elements from `lane` on of one block.
-template <class T, ShellLaw law>
-ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t block, int lane) {
-  using section_detail::get;
-  const ShellSection& s = *args.section;
-  const double h = args.h;
-  double* state = args.state + block * static_cast<std::size_t>(s.variables * shell_lanes) + lane;
-  const double* constants = args.constants + block * (shell_constant::count * shell_lanes) + lane;
-  const std::int32_t* nodes = args.nodes + block * (4 * shell_lanes) + lane;
-  double* slots = args.slots + block * args.slot_stride + lane;
-  const T zero = T(0.0), one = T(1.0), two = T(2.0);
+/// Geometry at t^n and velocity differences in the frame: d13 = node 1 minus node 3, h = 1 - 2 + 3 - 4, s = sum.
+template <class T>
+struct Q4Motion {
+  Q4Geometry<T> g;
+  T vx13, vy13, vz13, vx24, vy24, vz24, vxh, vyh, vzh;
+  T wx13, wy13, wx24, wy24, wxs, wys, wxh, wyh;
+};
 
-  // gather
-  const Vec<T> v1 = gather(T{}, args.v, nodes), v2 = gather(T{}, args.v, nodes + 8);
-  const Vec<T> v3 = gather(T{}, args.v, nodes + 16), v4 = gather(T{}, args.v, nodes + 24);
-  const Vec<T> w1 = gather(T{}, args.w, nodes), w2 = gather(T{}, args.w, nodes + 8);
-  const Vec<T> w3 = gather(T{}, args.w, nodes + 16), w4 = gather(T{}, args.w, nodes + 24);
-  const T regular = simd::NumberTraits<T>::load(constants + shell_constant::regular * shell_lanes);
-  const T not_rigid = simd::NumberTraits<T>::load(constants + shell_constant::active * shell_lanes);
-  const auto alive = (get<T>(state, shell_state::off) > zero) & (not_rigid > zero);
-
-  // geometry
+/// First stage: gather, geometry, velocities in the frame.
+template <class T>
+ABUT_INLINE void q4_motion(const ShellKernelArgs& args, const Q4Parameters& q, double* state, const std::int32_t* nodes, Q4Motion<T>& m) {
   Q4Geometry<T> g;
   q4_frame(q.frame_v4, gather(T{}, args.x, nodes), gather(T{}, args.x, nodes + 8), gather(T{}, args.x, nodes + 16),
            gather(T{}, args.x, nodes + 24), g);
   if (q.may_freeze) q4_detail::freeze(state + q.at_frozen * shell_lanes, g);
   q4_operators(q.plain_gamma, g);
-  const T inverse_area = one / g.area;
+  m.g = g;
+  // Differences first, then into the frame.
+  {
+    const Vec<T> v1 = gather(T{}, args.v, nodes), v3 = gather(T{}, args.v, nodes + 16);
+    const Vec<T> v2 = gather(T{}, args.v, nodes + 8), v4 = gather(T{}, args.v, nodes + 24);
+    const Vec<T> d13 = v1 - v3, d24 = v2 - v4, hg = (v1 - v2) + (v3 - v4);
+    m.vx13 = dot(d13, g.e1);
+    m.vy13 = dot(d13, g.e2);
+    m.vz13 = dot(d13, g.e3);
+    m.vx24 = dot(d24, g.e1);
+    m.vy24 = dot(d24, g.e2);
+    m.vz24 = dot(d24, g.e3);
+    m.vxh = dot(hg, g.e1);
+    m.vyh = dot(hg, g.e2);
+    m.vzh = dot(hg, g.e3);
+  }
+  const Vec<T> w1 = gather(T{}, args.w, nodes), w3 = gather(T{}, args.w, nodes + 16);
+  const Vec<T> w2 = gather(T{}, args.w, nodes + 8), w4 = gather(T{}, args.w, nodes + 24);
+  const Vec<T> d13 = w1 - w3, d24 = w2 - w4, s13 = w1 + w3, s24 = w2 + w4;
+  const Vec<T> sum = s13 + s24, hg = s13 - s24;
+  m.wx13 = dot(d13, g.e1);
+  m.wy13 = dot(d13, g.e2);
+  m.wx24 = dot(d24, g.e1);
+  m.wy24 = dot(d24, g.e2);
+  m.wxs = dot(sum, g.e1);
+  m.wys = dot(sum, g.e2);
+  m.wxh = dot(hg, g.e1);
+  m.wyh = dot(hg, g.e2);
+}
 
-  // velocities: differences first, then into the frame
-  const Vec<T> gv13 = v1 - v3, gv24 = v2 - v4, gvh = (v1 - v2) + (v3 - v4);
-  T vx13 = dot(gv13, g.e1), vy13 = dot(gv13, g.e2);
-  T vx24 = dot(gv24, g.e1), vy24 = dot(gv24, g.e2);
-  const T vz13 = dot(gv13, g.e3), vz24 = dot(gv24, g.e3);
-  T vxh = dot(gvh, g.e1), vyh = dot(gvh, g.e2);
-  const T vzh = dot(gvh, g.e3);
-  const Vec<T> gw13 = w1 - w3, gw24 = w2 - w4, gw1 = w1 + w3, gw2 = w2 + w4;
-  const Vec<T> gws = gw1 + gw2, gwh = gw1 - gw2;
-  const T wx13 = dot(gw13, g.e1), wy13 = dot(gw13, g.e2), wx24 = dot(gw24, g.e1), wy24 = dot(gw24, g.e2);
-  const T wxs = dot(gws, g.e1), wys = dot(gws, g.e2), wxh = dot(gwh, g.e1), wyh = dot(gwh, g.e2);
+/// Second stage: rates, section, hourglass, forces, for the NumberTraits<T>::width elements from `lane` on of one block.
+template <class T, ShellLaw law>
+ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t block, int lane,
+                          const Q4Motion<T>& motion) {
+  using section_detail::get;
+  const ShellSection& s = *args.section;
+  const double h = args.h;
+  double* state = args.state + block * static_cast<std::size_t>(s.variables * shell_lanes) + lane;
+  const double* constants = args.constants + block * (shell_constant::count * shell_lanes) + lane;
+  double* slots = args.slots + block * args.slot_stride + lane;
+  const T zero = T(0.0), one = T(1.0), two = T(2.0);
+
+  const T regular = simd::NumberTraits<T>::load(constants + shell_constant::regular * shell_lanes);
+  const T not_rigid = simd::NumberTraits<T>::load(constants + shell_constant::active * shell_lanes);
+  const auto alive = (get<T>(state, shell_state::off) > zero) & (not_rigid > zero);
+  const Q4Geometry<T>& g = motion.g;
+  const T inverse_area = one / g.area;
+  T vx13 = motion.vx13, vy13 = motion.vy13, vx24 = motion.vx24, vy24 = motion.vy24, vxh = motion.vxh, vyh = motion.vyh;
+  const T vz13 = motion.vz13, vz24 = motion.vz24, vzh = motion.vzh;
+  const T wx13 = motion.wx13, wy13 = motion.wy13, wx24 = motion.wx24, wy24 = motion.wy24;
+  const T wxs = motion.wxs, wys = motion.wys, wxh = motion.wxh, wyh = motion.wyh;
 
   // transverse shear of the mid-surface; second-order corrections
   const T gy = (g.py1 * vz13 + g.py2 * vz24) * inverse_area, gx = (g.px1 * vz13 + g.px2 * vz24) * inverse_area;
@@ -103,8 +130,10 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
     rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
     const T factor = T(q.rotation_correction * h);
     const T minus = vz13 - vz24, plus = vz13 + vz24;
-    const T dx = factor * (minus * minus) / q4_detail::guarded(g.py1 + g.py2);
-    const T dy = factor * (plus * plus) / q4_detail::guarded(g.px2 - g.px1);
+    const T below_x = q4_detail::guarded(g.py1 + g.py2), below_y = q4_detail::guarded(g.px2 - g.px1);
+    const T reciprocal = factor / (below_x * below_y);  // one division for both
+    const T dx = reciprocal * below_y * (minus * minus);
+    const T dy = reciprocal * below_x * (plus * plus);
     vx13 -= dx;
     vx24 += dx;
     vy13 += dy;
@@ -149,6 +178,12 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
                       select(alive, n.off * rate_y, zero), select(alive, n.off * rate_z, zero), select(alive, wxh, zero),
                       select(alive, wyh, zero), select(alive, d1, zero), select(alive, d2, zero), h);
 
+  // step; early, because its roots and divisions take long and the forces do not wait for them
+  const T mass = simd::NumberTraits<T>::load(constants + shell_constant::mass * shell_lanes);
+  const T inertia = simd::NumberTraits<T>::load(constants + shell_constant::inertia * shell_lanes);
+  const ShellStep<T> step = q.step_bound ? q4_step_bound(s, q, g, t, mass, inertia, hg.stiffness, h)
+                                         : q4_step_reference(s, q, g, t, regular, damping, hg.stiffness);
+
   // nodal forces and moments in the frame: gradient part of nodes 1 and 2, the rest
   const T f1x = t * (n.fxx * g.px1 + n.fxy * g.py1), f2x = t * (n.fxx * g.px2 + n.fxy * g.py2);
   const T f1y = t * (n.fyy * g.py1 + n.fxy * g.px1), f2y = t * (n.fyy * g.py2 + n.fxy * g.px2);
@@ -166,10 +201,6 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const Vec<T> fh = (n.off * hg.qx) * g.e1 + (n.off * hg.qy) * g.e2 + (n.off * hg.qz) * g.e3;
   const Vec<T> m1 = m1x * g.e1 + m1y * g.e2, m2 = m2x * g.e1 + m2y * g.e2;
   const Vec<T> ma = (msx + hg.mx) * g.e1 + (msy + hg.my) * g.e2, mb = (msx - hg.mx) * g.e1 + (msy - hg.my) * g.e2;
-  const T mass = simd::NumberTraits<T>::load(constants + shell_constant::mass * shell_lanes);
-  const T inertia = simd::NumberTraits<T>::load(constants + shell_constant::inertia * shell_lanes);
-  const ShellStep<T> step = q.step_bound ? q4_step_bound(s, q, g, t, mass, inertia, hg.stiffness, h)
-                                         : q4_step_reference(s, q, g, t, regular, damping, hg.stiffness);
   const auto stays = alive & (n.off > zero);
   simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
   const T stiffness = select(stays, q.step_bound ? step.per_mass * mass : step.stiffness, zero);
@@ -192,8 +223,14 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
 /// Blocks [begin, end). `damping`: sqrt(1 + dm^2) - dm, the factor of the reference's step.
 template <class T, ShellLaw law>
 ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t begin, std::size_t end) {
+  constexpr int width = simd::NumberTraits<T>::width;
+  Q4Motion<T> motion[shell_lanes / width];
   for (std::size_t b = begin; b < end; ++b) {
-    for (int lane = 0; lane < shell_lanes; lane += simd::NumberTraits<T>::width) q4_lanes<T, law>(args, q, damping, b, lane);
+    // Stage by stage over the block: the processor works on one half while the other waits for the roots of its frame.
+    const std::int32_t* nodes = args.nodes + b * (4 * shell_lanes);
+    double* state = args.state + b * static_cast<std::size_t>(args.section->variables * shell_lanes);
+    for (int p = 0; p < shell_lanes / width; ++p) q4_motion(args, q, state + p * width, nodes + p * width, motion[p]);
+    for (int p = 0; p < shell_lanes / width; ++p) q4_lanes<T, law>(args, q, damping, b, p * width, motion[p]);
   }
 }
 

@@ -26,8 +26,8 @@
 // shear. Left out: stress (geometric) stiffness, of relative size stress/E.
 //
 // Nodal stiffness: K_I = k_e m_I/2 with k_e = k + 2 c/h_ref, so that h <= sqrt(2 m/K) at every node implies the condition above
-// for the sum (h^2 k_e m_I/4 summed over elements <= m_I, while h >= h_ref). h_ref is half of the last step or of the element's own
-// step, whichever is smaller: the step may halve from one cycle to the next without leaving the bound.
+// for the sum (h^2 k_e m_I/4 summed over elements <= m_I, while h >= h_ref). h_ref is half of the last step: the step may halve from one cycle
+// to the next without leaving the bound.
 #pragma once
 
 #include "elements/shell_common/section.hpp"
@@ -48,26 +48,26 @@ template <class T>
 ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters& q, const Q4Geometry<T>& g, T t, T mass, T inertia,
                                        const Q4HourglassStiffness<T>& hg, double h) {
   const T two = T(2.0), four = T(4.0), zero = T(0.0), half = T(0.5);
-  const T inverse_mass = T(1.0) / mass;
-  const T a = g.area, a2 = a * a;
+  // One division for 1/mass and 1/(mass inertia).
+  const T inverse_inertia = T(1.0) / (mass * inertia), inverse_mass = inverse_inertia * inertia;
+  const T a = g.area, a2 = a * a, inverse_area = T(1.0) / a;
   const T trace = two * (g.px1 * g.px1 + g.py1 * g.py1 + g.px2 * g.px2 + g.py2 * g.py2);
   const T a11 = T(s.elastic.a11);
-  const T t_per_am = t * inverse_mass / a;
+  const T t_per_am = t * inverse_mass * inverse_area;
   const T root = sqrt(max(a11 * a11 * trace * trace - four * a2 * T(s.elastic.a11 * s.elastic.young), zero));
   const T membrane = half * t_per_am * (a11 * trace + root);
   const T p_max = half * (trace + sqrt(max(trace * trace - four * a2, zero)));
   const T gamma2 = (g.gamma1 * g.gamma1 + g.gamma2 * g.gamma2 + g.gamma3 * g.gamma3 + g.gamma4 * g.gamma4) * inverse_mass;
-  const T inverse_inertia = inverse_mass / inertia;
   T out_of_plane = hg.normal * gamma2;
   if (s.bending) {
     const T kg = T(s.shear_factor * s.elastic.shear);
     const T shear = kg * (t_per_am * p_max + T(0.25) * t * a * inverse_inertia);
-    out_of_plane = max(out_of_plane + shear, membrane * T(1.0 / 12.0) * t * t / inertia);
+    out_of_plane = max(out_of_plane + shear, membrane * T(1.0 / 12.0) * t * t * (inverse_inertia * mass));
   }
   T k;
   if (q.ishell >= 3) {
     const T z2 = g.z2 * g.z2;
-    const T coupling = sqrt((gamma2 + z2 * inverse_inertia) * (gamma2 + four * z2 * p_max * inverse_mass / a2)) * hg.membrane;
+    const T coupling = sqrt((gamma2 + z2 * inverse_inertia) * (gamma2 + four * z2 * p_max * inverse_mass * (inverse_area * inverse_area))) * hg.membrane;
     k = max(membrane, out_of_plane) + coupling;
   } else {
     k = max(membrane + hg.membrane * gamma2, out_of_plane);
@@ -79,12 +79,7 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
     const T d = T(s.membrane_damping) * sqrt(a);
     c = c + t_per_am * d * damping_eigenvalue(trace, a2);
   }
-  ShellStep<T> out;
-  out.step = stable_step(k, c);
-  out.per_mass = half * (k + viscous_stiffness(c, out.step, h));
-  out.stiffness = zero;
-  out.rotational = zero;
-  return out;
+  return bounded_step(s.step_wanted, k, c, h);
 }
 
 /// `damping`: sqrt(1 + dm^2) - dm.

@@ -102,6 +102,7 @@ SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel 
   config_.literal_spin = in.profile.tetra_spin == Profile::TetraSpin::reference;
   reference_part_mass_ = config_.small_strain && config_.reference_step;
   config_.step_scale = in.step_scale;
+  config_.step_wanted = in.step_wanted;
   config_.step_minimum = in.step_minimum;
   config_.remove_small_step = in.step_action == model::StepControl::Action::remove;
 }

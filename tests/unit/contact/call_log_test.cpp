@@ -121,6 +121,27 @@ TEST(CallLog, replays_the_same_bits) {
   }
 }
 
+// A log may begin at any step: what an interface says does not depend on how old its search lists are (they begin anew in a replay).
+TEST(CallLog, may_begin_anywhere) {
+  for (const Kind kind : {Kind::two, Kind::nodes, Kind::both}) {
+    for (int from = 0; from < 120; from += 7) {
+      Scene s;
+      for (std::size_t n = 65; n < s.host.x.size(); ++n) s.host.x[n].z += 0.5;
+      Interface i = make(s, kind);
+      std::ostringstream log;
+      for (int step = 0; step < 180; ++step) {
+        if (step == from) i.record(log);
+        s.host.step(i, 0.005);
+      }
+      EXPECT_GT(s.host.last.in_contact + s.host.last.elastic + s.host.last.friction_work, 0.0);
+      std::istringstream in(log.str());
+      const Replay again = replay(in);
+      EXPECT_EQ(again.steps, 180 - from);
+      EXPECT_EQ(again.different, 0) << "from step " << from << ", differs in " << again.first_different;
+    }
+  }
+}
+
 // What the host's spans held before is part of a bit-for-bit result: two interfaces on the same nodes.
 TEST(CallLog, knows_what_others_added_before) {
   Scene s;

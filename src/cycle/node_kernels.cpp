@@ -1,0 +1,32 @@
+#include "cycle/node_kernels.hpp"
+
+#include "simd/isa.hpp"
+
+namespace abut::cycle {
+
+// node_kernels.isa.cpp, once per instruction set
+#define ABUT_DECLARE_NODE_KERNELS(isa)                                                   \
+  namespace isa {                                                                        \
+  void assemble_nodes(const AssembleArgs&, std::size_t, std::size_t);                    \
+  void sum_nodes(const MotionArgs&, std::size_t, std::size_t, KineticLeaf&);             \
+  void integrate_nodes(const MotionArgs&, std::size_t, std::size_t);                     \
+  }                                                                                      \
+  static constexpr NodeKernels isa##_kernels{isa::assemble_nodes, isa::sum_nodes, isa::integrate_nodes};
+ABUT_DECLARE_NODE_KERNELS(sse2)
+ABUT_DECLARE_NODE_KERNELS(avx2)
+ABUT_DECLARE_NODE_KERNELS(avx512)
+#undef ABUT_DECLARE_NODE_KERNELS
+
+const NodeKernels& node_kernels() {
+  switch (simd::active_isa()) {
+    case simd::Isa::avx512:
+      return avx512_kernels;
+    case simd::Isa::avx2:
+      return avx2_kernels;
+    case simd::Isa::sse2:
+      break;
+  }
+  return sse2_kernels;
+}
+
+}  // namespace abut::cycle

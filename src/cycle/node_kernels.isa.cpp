@@ -1,0 +1,163 @@
+#include "cycle/node_kernels.hpp"
+
+#include "simd/gather.hpp"
+#include "simd/isa_object.hpp"
+
+namespace abut::cycle::ABUT_ISA {
+
+namespace {
+
+using Four = simd::Pack<4>;
+using Real4 = simd::VectorOf<4>::real;
+
+ABUT_INLINE Four load3(const double* p) {
+  return Four(__builtin_shufflevector(simd::load_pair(p), simd::Pair{p[2], 0.0}, 0, 1, 2, 3));
+}
+ABUT_INLINE void store3(double* p, Four a) {
+  const simd::Pair low = __builtin_shufflevector(a.r, a.r, 0, 1);
+  __builtin_memcpy(p, &low, sizeof(low));
+  p[2] = a.r[2];
+}
+
+/// Adds 4 components of the entries of node i.
+ABUT_INLINE void add_entries(const double* sums, const std::uint32_t* at, std::uint32_t begin, std::uint32_t end, Four& total) {
+  for (std::uint32_t j = begin; j < end; ++j) total += simd::load<4>(sums + at[j]);
+}
+
+/// Twelve doubles: the vectors of four nodes.
+struct Twelve {
+  Four p[3];
+};
+ABUT_INLINE Twelve load12(const double* a) { return {{simd::load<4>(a), simd::load<4>(a + 4), simd::load<4>(a + 8)}}; }
+/// s0 s0 s0 s1 | s1 s1 s2 s2 | s2 s3 s3 s3
+ABUT_INLINE Twelve spread(const double* a) {
+  const Real4 s = simd::load<4>(a).r;
+  return {{Four(__builtin_shufflevector(s, s, 0, 0, 0, 1)), Four(__builtin_shufflevector(s, s, 1, 1, 2, 2)),
+           Four(__builtin_shufflevector(s, s, 2, 3, 3, 3))}};
+}
+ABUT_INLINE Twelve operator+(const Twelve& a, const Twelve& b) { return {{a.p[0] + b.p[0], a.p[1] + b.p[1], a.p[2] + b.p[2]}}; }
+ABUT_INLINE Twelve operator-(const Twelve& a, const Twelve& b) { return {{a.p[0] - b.p[0], a.p[1] - b.p[1], a.p[2] - b.p[2]}}; }
+ABUT_INLINE Twelve operator*(const Twelve& a, const Twelve& b) { return {{a.p[0] * b.p[0], a.p[1] * b.p[1], a.p[2] * b.p[2]}}; }
+ABUT_INLINE Twelve operator*(Four s, const Twelve& a) { return {{s * a.p[0], s * a.p[1], s * a.p[2]}}; }
+ABUT_INLINE void add(Twelve& sum, const Twelve& a) { sum = sum + a; }
+
+/// Sum of the parts of component k, k + 3, ... in order.
+ABUT_INLINE double component(const Twelve& a, int k) {
+  double all[12];
+  for (int i = 0; i < 3; ++i) simd::store<4>(all + 4 * i, a.p[i]);
+  return ((all[k] + all[k + 3]) + all[k + 6]) + all[k + 9];
+}
+ABUT_INLINE double total(const Twelve& a) { return (component(a, 0) + component(a, 1)) + component(a, 2); }
+
+/// One kind of motion of some nodes: translations or rotations.
+struct Moving {
+  const double *velocity, *acceleration, *inertia, *minus, *plus;  ///< forces: plus (may be null) minus minus
+};
+struct MovingSums {
+  Twelve star, square, before, after, momentum;
+};
+
+ABUT_INLINE void add_four(const Moving& m, std::size_t i, Four half, Four h_bar, MovingSums& s) {
+  const Twelve v = load12(m.velocity + 3 * i), a = load12(m.acceleration + 3 * i), j = spread(m.inertia + i);
+  const Twelve after = v + h_bar * a, now = v + half * a;
+  const Twelve zero{};
+  const Twelve g = (m.plus != nullptr ? load12(m.plus + 3 * i) : zero) - load12(m.minus + 3 * i);
+  const Twelve momentum = j * now;
+  add(s.star, j * (v * after));
+  add(s.square, momentum * now);
+  add(s.momentum, momentum);
+  add(s.before, g * v);
+  add(s.after, g * after);
+}
+
+ABUT_INLINE void sum_moving(const Moving& m, const MotionArgs& args, std::size_t begin, std::size_t end, MovingSums& s) {
+  s = {};
+  const Four half(args.half), h_bar(args.h_bar);
+  std::size_t i = begin;
+  for (; i + 4 <= end; i += 4) add_four(m, i, half, h_bar, s);
+  if (i == end) return;
+  // The last nodes, with nothing in the places of those that are missing.
+  double rest[4][12] = {}, inertia[4] = {};
+  for (std::size_t k = i; k < end; ++k) inertia[k - i] = m.inertia[k];
+  const double* const from[4] = {m.velocity, m.acceleration, m.minus, m.plus};
+  for (int q = 0; q < 4; ++q) {
+    for (std::size_t k = 3 * i; from[q] != nullptr && k < 3 * end; ++k) rest[q][k - 3 * i] = from[q][k];
+  }
+  add_four({rest[0], rest[1], inertia, rest[2], rest[3]}, 0, half, h_bar, s);
+}
+
+/// a += s b for doubles [begin, end); with `also`, the same step is added there.
+ABUT_INLINE void step(double* a, double* also, const double* b, double s, std::size_t begin, std::size_t end) {
+  const Four factor(s);
+  std::size_t k = begin;
+  for (; k + 4 <= end; k += 4) {
+    const Four d = factor * simd::load<4>(b + k);
+    simd::store<4>(a + k, simd::load<4>(a + k) + d);
+    if (also != nullptr) simd::store<4>(also + k, simd::load<4>(also + k) + d);
+  }
+  for (; k < end; ++k) {
+    const double d = s * b[k];
+    a[k] += d;
+    if (also != nullptr) also[k] += d;
+  }
+}
+
+}  // namespace
+
+void assemble_nodes(const AssembleArgs& args, std::size_t begin, std::size_t end) {
+  const Four zero(0.0);
+  const bool rotations = args.alpha != nullptr;
+  for (std::size_t i = begin; i < end; ++i) {
+    Four force = zero, moment = zero;  // and the stiffness in the last place
+    if (args.shell_first != nullptr) {
+      const std::uint32_t first = args.shell_first[i], last = args.shell_first[i + 1];
+      add_entries(args.sums, args.shell_at, first, last, force);
+      add_entries(args.sums + 4, args.shell_at, first, last, moment);
+    }
+    if (args.solid_first != nullptr) add_entries(args.sums, args.solid_at, args.solid_first[i], args.solid_first[i + 1], force);
+    const double mass = args.mass[i];
+    Four f = (args.f_external != nullptr ? load3(args.f_external + 3 * i) : zero) - force;
+    double stiffness = force.r[3];
+    if (args.f_contact != nullptr) {
+      f += load3(args.f_contact + 3 * i);
+      stiffness += args.contact_stiffness[i];
+    }
+    store3(args.f_internal + 3 * i, force);
+    args.stiffness[i] = stiffness;
+    if (args.f != nullptr) store3(args.f + 3 * i, f);
+    store3(args.a + 3 * i, mass > 0.0 ? f / Four(mass) : zero);
+    if (!rotations) continue;
+    const double inertia = args.inertia[i];
+    const Four m = (args.m_external != nullptr ? load3(args.m_external + 3 * i) : zero) - moment;
+    store3(args.m_internal + 3 * i, moment);
+    args.rotational_stiffness[i] = moment.r[3];
+    if (args.m != nullptr) store3(args.m + 3 * i, m);
+    store3(args.alpha + 3 * i, inertia > 0.0 ? m / Four(inertia) : zero);
+  }
+}
+
+void sum_nodes(const MotionArgs& args, std::size_t begin, std::size_t end, KineticLeaf& leaf) {
+  MovingSums s;
+  sum_moving({args.v, args.a, args.mass, args.f_internal, args.f_contact}, args, begin, end, s);
+  leaf.star = total(s.star);
+  leaf.square = total(s.square);
+  leaf.power_before = total(s.before);
+  leaf.power_after = total(s.after);
+  for (int k = 0; k < 3; ++k) leaf.momentum[k] = component(s.momentum, k);
+  leaf.mass = 0.0;
+  for (std::size_t i = begin; i < end; ++i) leaf.mass += args.mass[i];
+  if (args.w == nullptr) return;
+  sum_moving({args.w, args.alpha, args.inertia, args.m_internal, nullptr}, args, begin, end, s);
+  leaf.rotation_star = total(s.star);
+  leaf.rotation_square = total(s.square);
+  leaf.rotation_power_before = total(s.before);
+  leaf.rotation_power_after = total(s.after);
+}
+
+void integrate_nodes(const MotionArgs& args, std::size_t begin, std::size_t end) {
+  step(args.v, nullptr, args.a, args.h_bar, 3 * begin, 3 * end);
+  if (args.w != nullptr) step(args.w, nullptr, args.alpha, args.h_bar, 3 * begin, 3 * end);
+  step(args.x, args.u, args.v, args.h_plus, 3 * begin, 3 * end);
+}
+
+}  // namespace abut::cycle::ABUT_ISA

@@ -1,0 +1,196 @@
+#include "model/keyword_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace abut::model {
+
+namespace {
+
+constexpr std::size_t probe_cards = 12;
+
+/// A Starter deck of /BEGIN and one block whose cards are all alike.
+class Probe {
+ public:
+  Probe(std::vector<std::string> words, std::string_view card, int version) {
+    deck_.files = {"probe"};
+    if (version < 50) {
+      deck_.header = fmt::format("#RADIOSS STARTER{:>8}probe", version);
+    } else {
+      add({"BEGIN"}, {"probe", fmt::format("{:>10}", version), "", ""});
+    }
+    add(std::move(words), std::vector<std::string>(probe_cards, std::string(card)));
+  }
+
+  [[nodiscard]] const deck::Deck& deck() const { return deck_; }
+
+ private:
+  std::string_view keep(std::string text) { return texts_.emplace_back(std::move(text)); }
+
+  void add(std::vector<std::string> words, const std::vector<std::string>& cards) {
+    deck::Block block;
+    std::string line;
+    for (const std::string& word : words) line += "/" + word;
+    block.keyword_line = keep(line);
+    for (std::string& word : words) block.words.push_back(keep(std::move(word)));
+    for (const std::string& card : cards) block.cards.push_back({keep(card), 0, 1});
+    deck_.blocks.push_back(std::move(block));
+  }
+
+  deck::Deck deck_;
+  std::deque<std::string> texts_;
+};
+
+/// Lets the Starter's readers read one block. @returns the fields they looked at and what they said
+std::pair<std::vector<FieldUse>, Diagnostics> read_probe(const std::vector<std::string>& words, std::string_view card, int version) {
+  const Probe probe(words, card, version);
+  Model model;
+  std::pair<std::vector<FieldUse>, Diagnostics> found;
+  Context c;
+  c.deck = &probe.deck();
+  c.model = &model;
+  c.diagnostics = &found.second;
+  c.field_log = &found.first;
+  read_control(c);
+  if (words.front() == "BEGIN") return found;
+  std::erase_if(found.first, [](const FieldUse& use) { return use.name == "Invers"; });  // of the probe's own /BEGIN
+  read_mesh(c);
+  read_sets(c);
+  read_sensors(c);
+  read_conditions(c);
+  read_interfaces(c);
+  read_outputs(c);
+  return found;
+}
+
+/// Cards that make the readers take their branches: nothing, and a small number in every field.
+std::array<std::string, 4> probe_card(int version) {
+  std::array<std::string, 4> cards;
+  for (std::size_t k = 1; k < cards.size(); ++k) {
+    for (int field = 0; field < 10; ++field) cards[k] += fmt::format("{:>{}}", k, version < 50 ? 8 : 10);
+  }
+  return cards;
+}
+
+std::vector<std::string> words_of(const KeywordSupport& k) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 1; begin <= k.keyword.size();) {
+    const std::size_t end = std::min(k.keyword.find('/', begin), k.keyword.size());
+    words.push_back(k.keyword.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+/// Second words that a reader of sets may know; which it takes is asked.
+std::vector<std::string> known_types(const std::string& keyword) {
+  static const std::set<std::string> typed{"/GRNOD", "/GRSHEL", "/GRSH3N", "/GRBRIC", "/GRPART", "/SURF", "/BOX", "/SET"};
+  if (typed.count(keyword) == 0) return {};
+  static const std::vector<std::string> candidates{
+      "NODE", "PART",     "SUBSET", "SUBMODEL", "MAT",    "PROP",    "BOX",     "BOX2",   "SURF",   "SEG",      "LINE",
+      "GENE", "GEN_INCR", "GRNOD",  "GRSHEL",   "GRSH3N", "GRBRIC",  "GRPART",  "GRQUAD", "GRTRUS", "GRBEAM",   "SHEL",
+      "SH3N", "BRIC",     "RECTA",  "CYLIN",    "SPHER",  "GENERAL", "COLLECT", "PLANE",  "ELLIPS", "MDELLIPS", "DSURF"};
+  std::vector<std::string> taken;
+  for (const std::string& type : candidates) {
+    const Diagnostics said = read_probe({keyword.substr(1), type, "1"}, "", 2022).second;
+    const bool refused = std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& d) {
+      return d.severity == Severity::error && (d.code == "model.unknown_type" || d.code == "model.unsupported");
+    });
+    if (!refused) taken.push_back(type);
+  }
+  return taken;
+}
+
+/// A field is the same in all versions that have its name in its columns; its card is the one of the newest of them.
+std::vector<FieldSupport> fields_of(const KeywordSupport& k) {
+  using Key = std::tuple<std::string, int, int>;
+  std::map<Key, FieldSupport> fields;
+  const std::vector<std::string> types = k.types.empty() ? std::vector<std::string>{""} : k.types;
+  for (const int version : probed_versions()) {
+    std::map<Key, std::size_t> card_of;  // lists repeat their fields in every card: the first one stands for all
+    for (const std::string& type : types) {
+      std::vector<std::string> line = words_of(k);
+      if (!type.empty()) line.push_back(type);
+      line.push_back("1");
+      for (const std::string& card : probe_card(version)) {
+        for (const FieldUse& use : read_probe(line, card, version).first) {
+          std::size_t& first = card_of.try_emplace({use.name, use.columns.first, use.columns.last}, use.card).first->second;
+          first = std::min(first, use.card);
+        }
+      }
+    }
+    for (const auto& [key, card] : card_of) {
+      const auto& [name, first, last] = key;
+      FieldSupport& field = fields[key];
+      field.use = {card, {first, last}, name};
+      field.versions.push_back(version);
+    }
+  }
+  std::vector<FieldSupport> sorted;
+  for (auto& [key, field] : fields) sorted.push_back(std::move(field));
+  std::sort(sorted.begin(), sorted.end(), [](const FieldSupport& a, const FieldSupport& b) {
+    const auto order = [](const FieldSupport& f) { return std::tuple(f.use.card, f.use.columns.first, f.use.columns.last, f.use.name); };
+    return order(a) < order(b);
+  });
+  return sorted;
+}
+
+}  // namespace
+
+const std::vector<int>& probed_versions() {
+  static const std::vector<int> versions{41, 42, 44, 51, 90, 110, 120, 130, 140, 2017, 2019, 2022, 2024, 2026};
+  return versions;
+}
+
+std::vector<KeywordSupport> starter_keywords() {
+  std::vector<KeywordSupport> all = keyword_rules();
+  for (KeywordSupport& k : all) {
+    if (k.treatment != Treatment::taken) continue;
+    k.types = known_types(k.keyword);
+    k.fields = fields_of(k);
+  }
+  return all;
+}
+
+std::vector<KeywordSupport> engine_keywords() {
+  static const std::vector<std::string> candidates{
+      "RUN/probe/1",  "VERS",         "TITLE",     "TFILE",     "PRINT",     "RFILE",       "STOP",           "KILL",
+      "DT",           "DT/BRICK",     "DT/SHELL",  "DT/SH_3N",  "DT/NODA",   "DT/NODA/CST", "DT/NODA/STOP",   "DT/INTER",
+      "DT/INTER/DEL", "DT/INTER/CST", "DT/BEAM",   "DT/SPRING", "DTIX",      "ANIM/DT",     "ANIM/VECT/DISP", "ANIM/ELEM/VONM",
+      "ANIM/GZIP",    "RBODY/ON",     "RBODY/OFF", "MON/ON",    "PARITH/ON", "PROC",        "DEBUG",          "OUTP/DT",
+      "STATE/DT",     "DYNAIN/DT",    "H3D/DT",    "ATFILE",    "DAMP",      "DEL/SHELL",   "DEL/BRICK",      "DELINT",
+      "BCS/TRA",      "VEL/TRA",      "INIV/TRA",  "KEREL",     "ADYREL",    "DYREL",       "SENSOR",         "RERUN",
+      "IMPL/LINEAR",  "ALE/ON",       "UPWIND",    "SHVER",     "DT1",       "DTSDE",       "INTER",          "AMS",
+      "FUNCT",        "NEGVOL/STOP"};
+  std::vector<KeywordSupport> all;
+  for (const std::string& name : candidates) {
+    Diagnostics said;
+    const deck::Deck engine = deck::read_engine_text(
+        "#RADIOSS ENGINE\n" + std::string(name.starts_with("RUN") ? "" : "/RUN/probe/1\n1.0\n") + "/" + name + "\n0.9 1e-6\n", "probe",
+        said);
+    const Probe starter({"TITLE"}, "", 2022);
+    Model model;
+    Context c;
+    c.deck = &starter.deck();
+    c.model = &model;
+    c.diagnostics = &said;
+    read_engine(c, engine, 1);
+    const auto says = [&said](std::string_view code) {
+      return std::any_of(said.all().begin(), said.all().end(), [code](const Diagnostic& d) { return d.code == code; });
+    };
+    KeywordSupport k;
+    k.keyword = "/" + name.substr(0, name.find("/probe"));
+    k.treatment = says("engine.unsupported") ? Treatment::refused : says("engine.skipped") ? Treatment::harmless : Treatment::taken;
+    all.push_back(std::move(k));
+  }
+  return all;
+}
+
+}  // namespace abut::model

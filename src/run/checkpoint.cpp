@@ -1,0 +1,278 @@
+// Writing checkpoints and going on from them.
+#include "state/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "output/files.hpp"
+#include "run/session.hpp"
+
+namespace abut {
+namespace {
+
+/// A part of its own length: a reader that has no use for it passes over it.
+template <class Body>
+std::vector<std::byte> packed(Body&& body) {
+  state::Archive a;
+  body(a);
+  return {a.bytes().begin(), a.bytes().end()};
+}
+
+template <class Body>
+void unpack(const std::vector<std::byte>& bytes, Body&& body) {
+  state::Archive a{std::span<const std::byte>(bytes)};
+  body(a);
+  a.finish();
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string_view why) {
+  throw RunError(fmt::format("'{}' cannot be resumed: {}", path.string(), why));
+}
+
+}  // namespace
+
+void run::CheckpointInfo::persist(state::Archive& a) {
+  a.section("info", [&] {
+    a(version);
+    a(commit);
+    a(name);
+    a(deck);
+    a(fingerprint);
+    a(engine_fingerprint);
+    a(run);
+    for (bool* flag : {&reference, &orient, &allow_findings}) a(*flag);
+    a(law);
+    a.growing(started);
+    a.growing(start_durations);
+    if (started.size() != start_durations.size()) throw state::ArchiveError("the checkpoint is damaged");
+    a(hash_every);
+    a(checkpoint_every);
+    a(cycle);
+    a(time);
+    a(hash);
+  });
+}
+
+std::vector<GradualStart> run::starts_of(const CheckpointInfo& info) {
+  std::vector<GradualStart> starts;
+  for (std::size_t k = 0; k < info.started.size(); ++k) starts.push_back({info.started[k], info.start_durations[k]});
+  return starts;
+}
+
+run::Checkpoint::Checkpoint(const std::filesystem::path& path) : file(output::read_bytes(path)) {
+  archive = state::Archive(state::unseal(file));
+  info.persist(archive);
+  const output::RunInfo program = program_info();
+  if (info.version != program.version || info.commit != program.commit) {
+    const auto text = [](const std::string& version, const std::string& commit) {
+      return commit.empty() ? version : fmt::format("{} ({})", version, commit);
+    };
+    refuse(path, fmt::format("it was written by abut {}, this is abut {}", text(info.version, info.commit),
+                             text(program.version, program.commit)));
+  }
+}
+
+run::CheckpointInfo Run::Impl::checkpoint_info() {
+  const Model::Impl& m = model.impl();
+  run::CheckpointInfo i;
+  i.version = info.version;
+  i.commit = info.commit;
+  i.name = model.name();
+  std::error_code ignored;
+  if (!m.path.empty()) i.deck = std::filesystem::absolute(m.path, ignored).string();
+  i.fingerprint = m.fingerprint;
+  i.run = model.run_number();
+  i.engine_fingerprint = m.engine_fingerprint[static_cast<std::size_t>(i.run) - 1];
+  i.reference = settings.choices.rules == Rules::reference;
+  i.orient = m.options.orient;
+  i.allow_findings = settings.allow_findings;
+  i.law = info.interface_law;
+  for (const GradualStart& start : settings.choices.gradual_starts) {
+    i.started.push_back(start.interface_id);
+    i.start_durations.push_back(start.duration);
+  }
+  i.hash_every = settings.hash_every;
+  i.checkpoint_every = settings.checkpoint_every;
+  i.cycle = cycle->state().times.cycle;
+  i.time = cycle->state().times.t;
+  i.hash = cycle->hash();
+  return i;
+}
+
+void Run::Impl::save(const std::filesystem::path& path, const std::filesystem::path& previous) {
+  state::Archive a;
+  checkpoint_info().persist(a);
+  cycle->persist(a);
+  std::vector<std::byte> watch = packed([this](state::Archive& part) { watch_->persist(part); });
+  std::vector<std::byte> memory = packed([this](state::Archive& part) {
+    if (memory_ != nullptr) memory_->persist(part);
+  });
+  // Files last: what they hold is brought to the disk before the checkpoint that counts on it.
+  std::vector<std::byte> files = packed([this](state::Archive& part) {
+    for (cycle::Sink* sink : files_) sink->persist(part);
+  });
+  a.section("sinks", [&] {
+    a.growing(watch);
+    a.growing(memory);
+    a.growing(files);
+  });
+  output::replace_durably(path, previous, state::seal(a.bytes()));
+}
+
+void Run::Impl::restore_outputs(run::Checkpoint& from, bool resume) {
+  std::vector<std::byte> watch, memory, files;
+  state::Archive& a = from.archive;
+  a.section("sinks", [&] {
+    a.growing(watch);
+    a.growing(memory);
+    a.growing(files);
+  });
+  a.finish();
+  unpack(watch, [this](state::Archive& part) { watch_->persist(part); });
+  if (memory_ != nullptr && !memory.empty()) unpack(memory, [this](state::Archive& part) { memory_->persist(part); });
+  if (!resume) return;
+  unpack(files, [this](state::Archive& part) {
+    for (cycle::Sink* sink : files_) sink->persist(part);
+  });
+}
+
+void Run::Impl::keep_checkpoint() {
+  if (settings.output.empty() || cycle->state().times.cycle == 0) return;
+  const output::RunFolder folder{settings.output, model.name()};
+  try {
+    save(folder.checkpoint(), folder.previous_checkpoint());
+  } catch (const RunError& error) {
+    if (std::exchange(told_checkpoint, true)) return;
+    // The run itself is well: it goes on, and the checkpoint that is there stays.
+    Diagnostic d{Severity::warning,
+                 "run.no_checkpoint",
+                 {},
+                 fmt::format("at time {:.6g} (cycle {}): no checkpoint was written: {}", cycle->state().times.t, cycle->state().times.cycle,
+                             error.what())};
+    info.during->push_back({std::move(d), 0, cycle->state().times.t, cycle->state().times.cycle, 0.0});
+  }
+}
+
+void Run::save(const std::filesystem::path& checkpoint) {
+  std::filesystem::path previous = checkpoint;
+  previous.replace_filename(checkpoint.stem().string() + "_previous" + checkpoint.extension().string());
+  impl_->save(checkpoint, previous);
+}
+
+Run Run::load(const Model& model, const std::filesystem::path& checkpoint, const RunSettings& settings) {
+  try {
+    run::Checkpoint from(checkpoint);
+    if (from.info.fingerprint != model.fingerprint()) refuse(checkpoint, fmt::format("it is of another model ('{}')", from.info.name));
+    const auto same = [](const GradualStart& a, const GradualStart& b) {
+      return a.interface_id == b.interface_id && a.duration == b.duration;
+    };
+    const std::vector<GradualStart> starts = run::starts_of(from.info);
+    if (from.info.reference != (settings.choices.rules == Rules::reference) || from.info.law != run::law_name(settings.choices) ||
+        !std::ranges::equal(starts, settings.choices.gradual_starts, same)) {
+      refuse(checkpoint, "it was written with another rule set, contact law or gradual start");
+    }
+    return Run(std::make_unique<Impl>(model, settings, &from, false));
+  } catch (const state::ArchiveError& error) { refuse(checkpoint, error.what()); }
+}
+
+namespace {
+
+struct Candidates {
+  std::filesystem::path folder, newest, previous;  ///< previous may be empty
+};
+
+Candidates find_checkpoints(const std::filesystem::path& place) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(place, error)) return {place.parent_path(), place, {}};
+  if (!std::filesystem::is_directory(place, error)) refuse(place, "there is no such run folder");
+  Candidates found{place, {}, {}};
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(place, error)) {
+    if (entry.path().extension() != ".rst") continue;
+    if (entry.path().stem().string().ends_with("_previous")) {
+      found.previous = entry.path();
+    } else {
+      found.newest = entry.path();
+      ++count;
+    }
+  }
+  if (count > 1) refuse(place, "it holds checkpoints of several runs; name one of the .rst files");
+  if (found.newest.empty()) std::swap(found.newest, found.previous);
+  if (found.newest.empty()) refuse(place, "there is no checkpoint in it (--checkpoint-every, /RFILE)");
+  return found;
+}
+
+Model model_of(const run::CheckpointInfo& info, const std::filesystem::path& checkpoint, const std::filesystem::path& deck) {
+  const std::filesystem::path path = deck.empty() ? std::filesystem::path(info.deck) : deck;
+  if (path.empty()) refuse(checkpoint, "its model was built in memory: load it with that model");
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) refuse(checkpoint, fmt::format("its deck '{}' is not there any more (--deck)", path.string()));
+  Model model = Model::read(path, {.orient = info.orient, .write_deck = {}, .run = 1});
+  if (model.fingerprint() != info.fingerprint) {
+    refuse(checkpoint, fmt::format("'{}' is another model, or was changed since (the checkpoint is of '{}')", path.string(), info.name));
+  }
+  const std::vector<std::uint64_t>& engines = model.impl().engine_fingerprint;
+  if (info.run < 1 || static_cast<std::size_t>(info.run) > engines.size() ||
+      engines[static_cast<std::size_t>(info.run) - 1] != info.engine_fingerprint) {
+    refuse(checkpoint, fmt::format("an Engine deck of the runs up to {} was changed since; what shall be different from here on goes into "
+                                   "the Engine deck of run {}",
+                                   info.run, info.run + 1));
+  }
+  if (info.run > 1) model = Model::read(path, {.orient = info.orient, .write_deck = {}, .run = info.run});
+  if (info.time <= model.end_time()) return model;
+  if (model.last_run_number() == info.run) {
+    refuse(checkpoint, fmt::format("the run is finished (time {:.8g}); an Engine deck of run {} with a later final time makes it go on",
+                                   info.time, info.run + 1));
+  }
+  return Model::read(path, {.orient = info.orient, .write_deck = {}, .run = info.run + 1});
+}
+
+}  // namespace
+
+Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted) {
+  const Candidates candidates = find_checkpoints(place);
+  const auto from_file = [&](const std::filesystem::path& path) {
+    run::Checkpoint from(path);
+    const run::CheckpointInfo& info = from.info;
+    const Model model = model_of(info, path, wanted.deck);
+    RunSettings settings;
+    settings.threads = wanted.threads;
+    settings.choices.rules = info.reference ? Rules::reference : Rules::standard;
+    settings.choices.interface_law = run::law_of(info.law);
+    settings.choices.gradual_starts = run::starts_of(info);
+    settings.output = candidates.folder;
+    settings.checkpoint_every = wanted.checkpoint_every >= 0 ? wanted.checkpoint_every : info.checkpoint_every;
+    settings.hash_every = info.hash_every;
+    settings.record_history = wanted.record_history;
+    settings.progress = wanted.progress;
+    settings.allow_findings = true;  // they were accepted, or there were none, when the run began
+    settings.interrupt = wanted.interrupt;
+    return std::make_unique<Impl>(model, settings, &from, true);
+  };
+  std::string damage;
+  try {
+    return Run(from_file(candidates.newest));
+  } catch (const state::ArchiveError& error) {
+    damage = error.what();
+    if (candidates.previous.empty()) refuse(candidates.newest, damage);
+  }
+  try {
+    std::unique_ptr<Impl> impl = from_file(candidates.previous);
+    // The whole one takes the place of the damaged one: from here on it is the one that the next checkpoint keeps.
+    std::filesystem::rename(candidates.previous, candidates.newest);
+    Diagnostic d{Severity::warning,
+                 "run.previous_checkpoint",
+                 {candidates.newest.string(), 0, {}, {}, 0, 0},
+                 fmt::format("{}; the run goes on from the checkpoint before it, of cycle {}", damage, impl->cycle->state().times.cycle)};
+    impl->info.during->push_back({std::move(d), 0, impl->cycle->state().times.t, impl->cycle->state().times.cycle, 0.0});
+    return Run(std::move(impl));
+  } catch (const state::ArchiveError& error) {
+    refuse(place, fmt::format("{}: {}; {}: {}", candidates.newest.filename().string(), damage, candidates.previous.filename().string(),
+                              error.what()));
+  }
+}
+
+}  // namespace abut

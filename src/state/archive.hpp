@@ -1,0 +1,102 @@
+// Binary archive of a run's state: tagged, length-prefixed sections of plain numbers, one description for both directions.
+//
+// Each owner of state has one function `void persist(state::Archive& a)` that names its members in order. With a writing archive
+// it appends them, with a reading one it replaces them; a reading archive trusts nothing: every length is compared with
+// what the owner expects or with what is left, every flag must be 0 or 1, a section must be used up. Numbers are
+// little-endian as in memory.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "abut/diagnostic.hpp"
+#include "abut/vec3.hpp"
+
+namespace abut::state {
+
+/// A checkpoint that cannot be used; what() says why.
+class ArchiveError : public RunError {
+ public:
+  using RunError::RunError;
+};
+
+class Archive {
+ public:
+  Archive() = default;                                                                  ///< writes
+  explicit Archive(std::span<const std::byte> bytes) : rest_(bytes), loading_(true) {}  ///< reads; the bytes must outlive it
+
+  [[nodiscard]] bool loading() const { return loading_; }
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  /// @throws ArchiveError when something is left over
+  void finish() const;
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(T& value) { plain(&value, sizeof(T)); }
+  void operator()(bool& flag);
+  void operator()(Vec3& v) { plain(&v, sizeof(Vec3)); }
+  void operator()(std::string& text);
+  template <class T, std::size_t N>
+  void operator()(std::array<T, N>& values) {
+    for (T& value : values) (*this)(value);
+  }
+
+  /// Values whose number the owner knows. @throws ArchiveError when the file has another number
+  template <class T>
+  void fixed(std::span<T> values) {
+    static_assert(std::is_arithmetic_v<T> || std::is_same_v<T, Vec3>);
+    expect_count(values.size());
+    plain(values.data(), values.size_bytes());
+  }
+  template <class T>
+  void fixed(std::vector<T>& values) {
+    fixed(std::span<T>(values));
+  }
+  /// Values whose number only the file knows.
+  template <class T>
+  void growing(std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    values.resize(count(values.size(), sizeof(T)));
+    plain(values.data(), values.size() * sizeof(T));
+  }
+  /// Records: body(record) for each. The number is the owner's.
+  template <class T, class Body>
+  void each(std::vector<T>& records, Body&& body) {
+    expect_count(records.size());
+    for (T& record : records) body(record);
+  }
+  /// Records whose number only the file knows; each takes at least one byte.
+  template <class T, class Body>
+  void each_growing(std::vector<T>& records, Body&& body) {
+    records.resize(count(records.size(), 1));
+    for (T& record : records) body(record);
+  }
+
+  /// A part with a name of at most 8 characters and a length.
+  template <class Body>
+  void section(std::string_view tag, Body&& body) {
+    const std::size_t mark = open_section(tag);
+    body();
+    close_section(tag, mark);
+  }
+
+ private:
+  void plain(void* data, std::size_t size);
+  void expect_count(std::size_t expected);
+  [[nodiscard]] std::size_t count(std::size_t own, std::size_t least_bytes);
+  [[nodiscard]] std::size_t open_section(std::string_view tag);
+  void close_section(std::string_view tag, std::size_t mark);
+
+  std::vector<std::byte> bytes_;
+  std::span<const std::byte> rest_;
+  std::string_view where_ = "archive";
+  bool loading_ = false;
+};
+
+}  // namespace abut::state

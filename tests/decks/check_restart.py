@@ -1,0 +1,333 @@
+#!/usr/bin/env python3
+"""Torture the restart: whatever happens to a run, it goes on with the same bits, or says clearly why it does not.
+
+usage: check_restart.py ABUT DECK [--kills N] [--damages N] [--seed S]
+
+ABUT is the program, DECK a Starter deck that has no errors, with its Engine deck beside it. Standard library only.
+
+- kill -9 at N random moments, of runs and of resumed runs, on changing numbers of threads: what is in the folder is readable,
+  and the run that goes on ends with the time history, the animation and the state hashes of the run that was never stopped;
+- a disk that is full (a limit on the size of files) during a checkpoint, and during the time history;
+- checkpoints cut off and with flipped bits: the one before is taken, or a clear refusal;
+- checkpoints of another model, of a changed Engine deck, of another version: refused, and the folder stays as it is;
+- a chain of Engine decks NAME_0001, NAME_0002 ends in the state of one run to the same time.
+Exit status 0 when all holds.
+"""
+import argparse
+import json
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+CHECKPOINT_EVERY = 40
+HASH_EVERY = 50
+
+
+def fail(what, result=None):
+    print(f"not so: {what}", file=sys.stderr)
+    if result is not None:
+        print(result.stdout, result.stderr, sep="\n", file=sys.stderr)
+    sys.exit(1)
+
+
+def expect(condition, what, result=None):
+    if not condition:
+        fail(what, result)
+
+
+def call(*arguments, **options):
+    result = subprocess.run([str(a) for a in arguments], capture_output=True, text=True, timeout=300, **options)
+    expect(result.returncode in (0, 1), f"{arguments} ends with 0 or 1, not {result.returncode}", result)
+    return result
+
+
+def read(*path):
+    with open(os.path.join(*path), "rb") as file:
+        return file.read()
+
+
+def write(path, content):
+    with open(path, "wb") as file:
+        file.write(content)
+
+
+class Case:
+    """A deck, and the run of it that nothing happened to."""
+
+    def __init__(self, abut, deck, folder, dice):
+        self.abut, self.dice = abut, dice
+        self.deck = os.path.abspath(deck)
+        self.name = os.path.basename(deck).removesuffix("_0000.rad")
+        self.folder = folder
+        self.reference = os.path.join(folder, "reference")
+        start = time.monotonic()
+        result = self.run(self.reference, threads=1)
+        self.seconds = time.monotonic() - start
+        expect(result.returncode == 0, "the run that nothing happens to finishes", result)
+        self.expected = self.results(self.reference)
+        expect(len(self.expected["hashes"]) > 3 and len(self.expected["animation"]) > 3, "the run has hashes and animation states")
+
+    def command(self, folder, threads):
+        return [self.abut, "run", self.deck, "-o", folder, "--quiet", "--threads", str(threads), "--hash-every", str(HASH_EVERY),
+                "--checkpoint-every", str(CHECKPOINT_EVERY)]
+
+    def run(self, folder, threads=2, **options):
+        return call(*self.command(folder, threads), **options)
+
+    def resume(self, folder, *more, threads=2, **options):
+        return call(self.abut, "resume", folder, "--quiet", "--threads", threads, *more, **options)
+
+    def checkpoint(self, folder, previous=False):
+        return os.path.join(folder, self.name + ("_previous" if previous else "") + ".rst")
+
+    def results(self, folder):
+        """What must not depend on what happened on the way."""
+        with open(os.path.join(folder, "run.json")) as file:
+            manifest = json.load(file)
+        animation = os.path.join(folder, self.name + "_anim")
+        return {"outcome": manifest["outcome"]["kind"], "cycles": manifest["outcome"].get("cycles"), "energies": manifest.get("energies"),
+                "worst": manifest.get("worst"), "hashes": manifest.get("hashes"), "history": read(folder, self.name + "_th.csv"),
+                "index": read(folder, self.name + ".pvd"),
+                "animation": {file: read(animation, file) for file in sorted(os.listdir(animation)) if not file.startswith(".")}}
+
+    def expect_same(self, folder, what):
+        found = self.results(folder)
+        for key, value in self.expected.items():
+            expect(found[key] == value, f"{what}: '{key}' is that of the run that was never stopped")
+        left = [file for file in os.listdir(folder) if file.endswith(".part")]
+        expect(not left, f"{what}: no temporary file is left: {left}")
+
+    def expect_readable(self, folder):
+        """After a kill: whole rows, a manifest, and an index whose states can be read."""
+        history = os.path.join(folder, self.name + "_th.csv")
+        if os.path.exists(history):
+            rows = read(history).decode().split("\n")[:-1]
+            expect(len({row.count(",") for row in rows}) <= 1, "every whole row of a killed run has all columns")
+            for row in rows[1:]:
+                [float(value) for value in row.split(",")]
+        manifest = os.path.join(folder, "run.json")
+        if os.path.exists(manifest):
+            json.loads(read(manifest))
+        index = os.path.join(folder, self.name + ".pvd")
+        if os.path.exists(index):
+            for state in xml.etree.ElementTree.fromstring(read(index)).iter("DataSet"):
+                expect(read(folder, state.get("file")).rstrip().endswith(b"</VTKFile>"), f"{state.get('file')} of a killed run is whole")
+
+
+def kill_some_time(case, command, longest):
+    """Starts the command and kills it at a random moment. True when it was killed before its end."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(case.dice.uniform(0.0, longest))
+    process.send_signal(signal.SIGKILL)
+    return process.wait() != 0
+
+
+def kills(case, count):
+    done = resumed = 0
+    while done < count:
+        folder = os.path.join(case.folder, "killed")
+        shutil.rmtree(folder, ignore_errors=True)
+        command = case.command(folder, case.dice.choice((1, 2, 3)))
+        while done < count and kill_some_time(case, command, case.seconds):
+            done += 1
+            case.expect_readable(folder)
+            if os.path.exists(case.checkpoint(folder)):
+                command = [case.abut, "resume", folder, "--quiet", "--threads", str(case.dice.choice((1, 2, 3)))]
+            else:
+                result = case.resume(folder) if os.path.isdir(folder) else None
+                expect(result is None or (result.returncode == 1 and "there is no checkpoint" in result.stderr),
+                       "without a checkpoint resume says so", result)
+        if os.path.exists(case.checkpoint(folder)):
+            result = case.resume(folder, threads=case.dice.choice((1, 2, 3)))
+            if result.returncode == 1:
+                expect("the run is finished" in result.stderr, "only a finished run does not go on", result)
+            else:
+                resumed += 1
+            case.expect_same(folder, f"after kill {done}")
+    print(f"{done} kills, {resumed} runs brought to their end with the same bits")
+    return resumed
+
+
+def half_way(case, folder):
+    """A run that was killed when it had two checkpoints."""
+    for _ in range(20):
+        shutil.rmtree(folder, ignore_errors=True)
+        process = subprocess.Popen(case.command(folder, 1), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and not os.path.exists(case.checkpoint(folder, previous=True)):
+            time.sleep(0.002)
+        process.kill()
+        process.wait()
+        if json.loads(read(folder, "run.json"))["outcome"]["kind"] == "running" and os.path.exists(case.checkpoint(folder, True)):
+            return
+    fail("a run can be killed between its second checkpoint and its end")
+
+
+def full_disk(case):
+    """A limit on the size of files stands for a disk that is full: the write fails in the middle."""
+    def limited(size):
+        return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+
+    biggest = max(len(content) for content in case.expected["animation"].values())
+    checkpoint = os.path.getsize(case.checkpoint(case.reference))
+    history = len(case.expected["history"])
+    expect(checkpoint > 1.2 * max(biggest, history), "the checkpoint is the largest file of this deck")
+
+    folder = os.path.join(case.folder, "no_checkpoint")
+    result = case.run(folder, preexec_fn=limited(checkpoint // 2 + max(biggest, history) // 2))
+    expect(result.returncode == 0 and "no checkpoint was written" in result.stderr, "a run goes on without room for checkpoints", result)
+    case.expect_same(folder, "without room for checkpoints")
+    expect(not os.path.exists(case.checkpoint(folder)), "no part of a checkpoint is left")
+
+    folder = os.path.join(case.folder, "full_disk")
+    half_way(case, folder)
+    before = read(case.checkpoint(folder))
+    result = case.resume(folder, preexec_fn=limited(len(read(folder, case.name + "_th.csv")) + 100))
+    expect(result.returncode == 1 and "cannot write" in result.stderr, "a full disk is named", result)
+    expect(read(case.checkpoint(folder)) == before, "the checkpoint that was there is kept when the disk is full")
+    case.expect_readable(folder)
+    result = case.resume(folder)
+    expect(result.returncode == 0, "with room again the run goes on", result)
+    case.expect_same(folder, "after a full disk")
+    print("a full disk does no harm")
+
+
+def damages(case, count):
+    start = os.path.join(case.folder, "start")
+    half_way(case, start)
+    good = read(case.checkpoint(start))
+
+    def damaged():
+        bad = bytearray(good)
+        if case.dice.random() < 0.4:
+            return bytes(bad[:case.dice.randrange(len(bad))])
+        for _ in range(case.dice.randint(1, 4)):
+            bad[case.dice.randrange(len(bad))] ^= 1 << case.dice.randrange(8)
+        return bytes(bad)
+
+    folder = os.path.join(case.folder, "damaged")
+    for k in range(count):
+        bad = damaged()
+        if bad == good:
+            continue
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(start, folder)
+        write(case.checkpoint(folder), bad)
+        if k % 4 == 0:  # the one before it is whole
+            result = case.resume(folder)
+            expect(result.returncode == 0 and "from the checkpoint before it" in result.stderr, "the checkpoint before is taken", result)
+            case.expect_same(folder, "from the checkpoint before")
+            continue
+        if k % 4 == 1:
+            write(case.checkpoint(folder, True), damaged()[:-1])
+        else:
+            os.remove(case.checkpoint(folder, True))
+        untouched(case, folder, "cannot be resumed", "damaged checkpoints are refused")
+    print(f"{count} damaged checkpoints: the one before, or a refusal")
+
+
+def contents(folder):
+    return {os.path.join(base, file): read(base, file) for base, _, files in os.walk(folder) for file in files}
+
+
+def untouched(case, folder, message, what, *more):
+    before = contents(folder)
+    result = case.resume(folder, *more)
+    expect(result.returncode == 1 and message in result.stderr, what, result)
+    expect(contents(folder) == before, f"{what}, and the folder stays as it is")
+
+
+def checksum(data):
+    """state::checksum of src/state/checkpoint.cpp."""
+    hash_, mask = 0xCBF29CE484222325, (1 << 64) - 1
+    data += b"\0" * (-len(data) % 8)
+    for (word,) in struct.iter_unpack("<Q", data):
+        hash_ = ((hash_ ^ word) * 0x100000001B3) & mask
+        hash_ ^= hash_ >> 32
+    return hash_
+
+
+def others(case):
+    folder = os.path.join(case.folder, "other")
+    half_way(case, folder)
+    decks = os.path.join(case.folder, "decks")
+    os.makedirs(decks)
+    engine = case.deck.replace("_0000.rad", "_0001.rad")
+    other = os.path.join(decks, os.path.basename(case.deck))
+
+    text = open(case.deck).read()
+    expect("/NODE\n" in text, "the deck has nodes")
+    write(other, text.replace("/NODE\n", "/NODE\n# changed\n", 1).encode())
+    shutil.copy(engine, decks)
+    untouched(case, folder, "is another model, or was changed since", "a changed Starter deck is refused", "--deck", other)
+    shutil.copy(case.deck, decks)
+    engine_text = open(engine).read()
+    write(os.path.join(decks, os.path.basename(engine)), engine_text.replace("/PRINT/-100", "/PRINT/-200").encode())
+    untouched(case, folder, "an Engine deck of the runs up to 1 was changed since", "a changed Engine deck is refused", "--deck", other)
+    untouched(case, folder, "is not there any more", "a deck that is gone is named", "--deck", os.path.join(decks, "none_0000.rad"))
+
+    good = read(case.checkpoint(folder))
+    version = re.search(rb"\d+\.\d+\.\d+", good[24:200]).group()
+    changed = good[:-8].replace(version, b"9" * len(version), 1)
+    write(case.checkpoint(folder), changed + struct.pack("<Q", checksum(changed)))
+    untouched(case, folder, f"written by abut {'9' * len(version)}", "another version is refused")
+    write(case.checkpoint(folder), good)
+    shutil.copy(engine, decks)
+    result = case.resume(folder, "--deck", other)
+    expect(result.returncode == 0, "a deck that was moved is found with --deck", result)
+    case.expect_same(folder, "with a deck that was moved")
+    untouched(case, folder, "the run is finished", "a finished run does not go on")
+    print("other models, decks and versions are refused")
+
+
+def chain(case):
+    """Run 1 to 40 % of the time and run 2 to the end: the state is that of one run; rows at the seam may be more."""
+    decks = os.path.join(case.folder, "chain")
+    os.makedirs(decks)
+    shutil.copy(case.deck, decks)
+    deck = os.path.join(decks, os.path.basename(case.deck))
+    text = open(case.deck.replace("_0000.rad", "_0001.rad")).read()
+    end = re.search(r"(?m)^(/RUN/.*)/1\s*\n\s*(\S+)", text)
+    first = text.replace(end.group(0), f"{end.group(1)}/1\n{0.4 * float(end.group(2))}", 1)
+    write(deck.replace("_0000.rad", "_0001.rad"), first.encode())
+    write(deck.replace("_0000.rad", "_0002.rad"), f"{end.group(1)}/2\n{end.group(2)}\n".encode())
+    folder = os.path.join(case.folder, "chained")
+    result = call(case.abut, "run", deck, "-o", folder, "--quiet", "--threads", 2, "--hash-every", HASH_EVERY)
+    expect(result.returncode == 0, "a chain of Engine decks runs", result)
+    found = case.results(folder)
+    for key in ("hashes", "cycles", "energies", "animation", "index", "history"):
+        expect(found[key] == case.expected[key], f"a chain of Engine decks: '{key}' is that of one run")
+    write(deck.replace("_0000.rad", "_0003.rad"), f"{end.group(1)}/3\n{end.group(2)}\n".encode())
+    result = call(case.abut, "run", deck, "-o", folder, "--quiet")
+    expect(result.returncode == 1 and "is not after the final time" in result.stderr, "a run that would end at once is refused", result)
+    print("a chain of Engine decks ends like one run")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("abut")
+    parser.add_argument("deck")
+    parser.add_argument("--kills", type=int, default=6)
+    parser.add_argument("--damages", type=int, default=8)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="abut_restart_") as folder:
+        case = Case(os.path.abspath(arguments.abut), arguments.deck, folder, random.Random(arguments.seed))
+        kills(case, arguments.kills)
+        full_disk(case)
+        damages(case, arguments.damages)
+        others(case)
+        chain(case)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

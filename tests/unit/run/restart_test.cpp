@@ -1,0 +1,225 @@
+// Checkpoints: a run that goes on has the bits of one that never stopped; a file that is not whole, or not of this model, is refused.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "abut/run.hpp"
+#include "output/files.hpp"
+#include "state/archive.hpp"
+#include "state/checkpoint.hpp"
+#include "unit/model/deck_text.hpp"
+
+namespace abut {
+namespace {
+
+using model::base_deck::base_engine;
+using model::base_deck::base_starter;
+using model::base_deck::with_line;
+
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("abut_restart_" + std::to_string(::getpid()) + "_" + std::to_string(count_++))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
+
+ private:
+  static inline int count_ = 0;
+  std::filesystem::path path_;
+};
+
+void put(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+Model base_model(const std::string& starter = base_starter, const std::string& engine = base_engine) {
+  return Model::from_text({.starter = starter, .engines = {engine}, .name = "base"});
+}
+
+RunSettings settings_of(Rules rules, int threads = 1) {
+  RunSettings settings;
+  settings.threads = threads;
+  settings.choices.rules = rules;
+  settings.allow_findings = true;
+  return settings;
+}
+
+/// Everything that a user can compare of two runs.
+void expect_same(const Run& a, const Run& b, const std::string& what) {
+  ASSERT_EQ(a.cycle(), b.cycle()) << what;
+  EXPECT_EQ(a.time(), b.time()) << what;
+  EXPECT_EQ(a.hash(), b.hash()) << what;
+  EXPECT_EQ(std::memcmp(&a.balance(), &b.balance(), sizeof(Balance)), 0) << what;
+  ASSERT_EQ(a.interfaces().size(), b.interfaces().size());
+  for (std::size_t i = 0; i < a.interfaces().size(); ++i) {
+    EXPECT_EQ(a.interfaces()[i].normal_impulse, b.interfaces()[i].normal_impulse) << what;
+    EXPECT_EQ(a.interfaces()[i].cx, b.interfaces()[i].cx) << what;
+  }
+  EXPECT_EQ(a.history().names, b.history().names) << what;
+  EXPECT_EQ(a.history().values, b.history().values) << what;
+  for (const std::string& name : Run::node_field_names()) EXPECT_EQ(a.node_field(name), b.node_field(name)) << what << ' ' << name;
+}
+
+/// Runs to the end; at some cycles a copy goes on from a checkpoint in memory of its own and must end alike.
+void expect_restarts(const Model& model, const RunSettings& settings, const std::vector<std::int64_t>& cycles, const std::string& what) {
+  const Folder folder;
+  Run run(model, settings);
+  run.advance_to_end([&](Run& r) {
+    for (const std::int64_t c : cycles) {
+      if (r.cycle() == c) r.save(folder.file((std::to_string(c) + ".rst").c_str()));
+    }
+    return true;
+  });
+  ASSERT_EQ(run.outcome().kind, Outcome::Kind::finished) << what << ": " << run.outcome().message;
+  ASSERT_GT(run.cycle(), cycles.back()) << what;
+  for (const std::int64_t c : cycles) {
+    RunSettings other = settings;
+    other.threads = settings.threads == 1 ? 3 : 1;
+    Run again = Run::load(model, folder.file((std::to_string(c) + ".rst").c_str()), other);
+    EXPECT_EQ(again.cycle(), c);
+    again.advance_to_end();
+    expect_same(run, again, what + " from cycle " + std::to_string(c));
+  }
+}
+
+TEST(Restart, EveryKindOfConditionAndInterfaceGoesOnWithTheSameBits) {
+  const Model model = base_model();
+  for (const Rules rules : {Rules::standard, Rules::reference}) {
+    expect_restarts(model, settings_of(rules), {1, 7, 60}, rules == Rules::standard ? "standard" : "reference");
+  }
+}
+
+TEST(Restart, DeletedElementsScaledMassesAndSensorsGoOnWithTheSameBits) {
+  // The plates tear at a small plastic strain; the lid becomes rigid while the run goes on.
+  std::string starter = with_line(base_starter, "/MAT/PLAS_JOHNS/2", 4, "                 0.3                 0.5                 0.5              0.0002                   0");
+  starter = with_line(starter, "/RBODY/1", 2, "        30         1         0         0                1E-6         3         0         0         0");
+  starter = with_line(starter, "/INTER/TYPE5/2", 2, "         4         3                                                 0         1");
+  const std::string engine = std::string(base_engine) + "/DT/NODA/CST\n0.9 1.5e-4\n";
+  const Model model = base_model(starter, engine);
+  expect_restarts(model, settings_of(Rules::standard), {3, 80, 200}, "deleted");
+}
+
+TEST(Restart, VelocitiesThatWereChangedAreInTheCheckpoint) {
+  const Folder folder;
+  const Model model = base_model();
+  Run run(model, settings_of(Rules::standard));
+  for (int i = 0; i < 20; ++i) run.advance();
+  run.edit_velocities()[9].x += 1.0;
+  run.save(folder.file("edited.rst"));
+  Run again = Run::load(model, folder.file("edited.rst"), settings_of(Rules::standard));
+  for (int i = 0; i < 20; ++i) {
+    run.advance();
+    again.advance();
+  }
+  expect_same(run, again, "edited");
+}
+
+std::string message_of_load(const Model& model, const std::filesystem::path& file, const RunSettings& settings) {
+  try {
+    (void)Run::load(model, file, settings);
+    return {};
+  } catch (const RunError& error) { return error.what(); }
+}
+
+TEST(Restart, OtherModelsRulesAndFilesAreRefusedByName) {
+  const Folder folder;
+  const RunSettings settings = settings_of(Rules::standard);
+  const auto file = folder.file("a.rst");
+  {
+    Run run(base_model(), settings);
+    run.advance();
+    run.save(file);
+  }
+  EXPECT_EQ(message_of_load(base_model(), file, settings), "");
+  const Model other = base_model(with_line(base_starter, "/NODE", 3, "         3                   1                1.01                   0"));
+  EXPECT_NE(message_of_load(other, file, settings).find("it is of another model"), std::string::npos);
+  EXPECT_NE(message_of_load(base_model(), file, settings_of(Rules::reference)).find("another rule set"), std::string::npos);
+  EXPECT_NE(message_of_load(base_model(), folder.file("none.rst"), settings).find("No such file"), std::string::npos);
+  put(file, {});
+  EXPECT_NE(message_of_load(base_model(), file, settings).find("not a checkpoint of abut"), std::string::npos);
+}
+
+TEST(Restart, ASecondCheckpointKeepsTheFirst) {
+  const Folder folder;
+  const Model model = base_model();
+  const RunSettings settings = settings_of(Rules::standard);
+  Run run(model, settings);
+  run.advance();
+  run.save(folder.file("a.rst"));
+  run.advance();
+  run.save(folder.file("a.rst"));
+  EXPECT_EQ(Run::load(model, folder.file("a.rst"), settings).cycle(), 2);
+  EXPECT_EQ(Run::load(model, folder.file("a_previous.rst"), settings).cycle(), 1);
+}
+
+/// Damaged files: every one is refused with a message, whatever was changed.
+TEST(Restart, EveryFlippedBitAndEveryCutIsFound) {
+  const Folder folder;
+  const Model model = base_model();
+  const RunSettings settings = settings_of(Rules::standard);
+  Run run(model, settings);
+  for (int i = 0; i < 70; ++i) run.advance();
+  run.save(folder.file("good.rst"));
+  const std::vector<std::byte> good = output::read_bytes(folder.file("good.rst"));
+  ASSERT_NO_THROW((void)state::unseal(good));
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<std::byte> bad = good;
+    for (std::uint64_t flips = 1 + random() % 3; flips > 0; --flips) bad[random() % bad.size()] ^= std::byte(1U << random() % 8);
+    if (bad == good) continue;
+    EXPECT_THROW((void)state::unseal(bad), state::ArchiveError);
+  }
+  for (int i = 0; i < 300; ++i) {
+    const std::size_t length = random() % good.size();
+    EXPECT_THROW((void)state::unseal(std::span(good).first(length)), state::ArchiveError) << length;
+  }
+}
+
+/// Changed files whose checksum is right: nothing is believed that the model contradicts, and nothing crashes.
+TEST(Restart, AFileWithARightChecksumIsNotTrusted) {
+  const Folder folder;
+  const Model model = base_model();
+  RunSettings settings = settings_of(Rules::standard);
+  settings.record_history = false;
+  Run run(model, settings);
+  for (int i = 0; i < 70; ++i) run.advance();
+  run.save(folder.file("good.rst"));
+  const std::vector<std::byte> file = output::read_bytes(folder.file("good.rst"));
+  const std::span<const std::byte> content = state::unseal(file);
+  std::mt19937_64 random(11);
+  int refused = 0;
+  constexpr int tries = 300;
+  for (int i = 0; i < tries; ++i) {
+    std::vector<std::byte> changed(content.begin(), content.end());
+    switch (random() % 3) {
+      case 0:
+        changed[random() % changed.size()] ^= std::byte(1U << random() % 8);
+        break;
+      case 1:
+        changed.resize(random() % changed.size());
+        break;
+      default: {  // a stretch of noise
+        const std::size_t at = random() % changed.size();
+        for (std::size_t k = at; k < std::min(changed.size(), at + 64); ++k) changed[k] = std::byte(random() & 0xff);
+      }
+    }
+    put(folder.file("changed.rst"), state::seal(changed));
+    try {
+      Run again = Run::load(model, folder.file("changed.rst"), settings);
+      again.advance();  // what was changed is a number that no check can know
+    } catch (const RunError&) { ++refused; }
+  }
+  EXPECT_GT(refused, tries / 2);
+}
+
+}  // namespace
+}  // namespace abut
