@@ -62,7 +62,7 @@ def declarations(text):
             line = lines[k].strip()
             k += 1
         whole = "\n".join(gathered)
-        if internal:
+        if internal or re.match(r"(struct|class) \w+;$", whole.strip()):
             doc = []
             continue
         if re.match(r"(struct|class|enum)\b", whole) and "{" in whole:
