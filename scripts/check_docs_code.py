@@ -32,7 +32,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ["README.md", "CONTRIBUTING.md", "examples/README.md"]
-KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "man", "source", "xdg-open", "firefox", "bench/run", "export"}
+KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "npm", "man", "source", "xdg-open", "firefox", "bench/run", "export"}
 LIMIT = 300  # seconds for one block
 
 
