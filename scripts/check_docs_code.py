@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Runs the code of the documentation: every fenced block of README.md, CONTRIBUTING.md, docs/ and examples/README.md.
 
-usage: check_docs_code.py [--abut PROGRAM] [--library FILE] [--only PAGE ...] [--list]
+usage: check_docs_code.py [--abut PROGRAM] [--library FILE] [--python PROGRAM --python-path FOLDER] [--only PAGE ...] [--list]
 
 What a block is follows from its info string and from a comment right above it, and no block is passed over:
 
   console        lines that start with "$ " are run ("> " goes on); what stands below each must be what it prints. "..." stands for anything,
                  in a line or as a line of its own; the number of blanks does not count.
   sh, bash       run from the first to the last line; must succeed
-  python         run; must succeed
+  python         run; must succeed. With --python-path, by the interpreter of --python and with the module abut; without it, blocks that import
+                 abut are left out, and counted
   cpp            compiled and linked with abut::contact, and run
   text, none     a drawing or a form; must not contain commands
 
@@ -117,9 +118,11 @@ def commands_of(text):
 
 
 class Runner:
-    def __init__(self, program, library):
-        self.program, self.library = Path(program), library
+    def __init__(self, program, library, python=sys.executable, python_path=None):
+        self.program, self.library, self.python, self.python_path = Path(program), library, python, python_path
         self.environment = {**os.environ, "PATH": f"{self.program.parent}:{os.environ['PATH']}", "ABUT_SKIP_DEPS": "1", "LC_ALL": "C.UTF-8"}
+        if python_path:
+            self.environment["PYTHONPATH"] = str(python_path)
         self.printed = ""
 
     def call(self, command, folder, may_fail=False):
@@ -166,7 +169,9 @@ class Runner:
         if language in ("sh", "bash"):
             return "run", self.call(["bash", "-e", "-o", "pipefail", "-c", block.text], folder, may_fail)
         if language == "python":
-            return "run", self.call([sys.executable, "-c", block.text], folder, may_fail)
+            if not self.python_path and re.search(r"^(import|from) abut\b", block.text, flags=re.M):
+                return "left out", None
+            return "run", self.call([self.python, "-c", block.text], folder, may_fail)
         if language == "cpp":
             return "run", self.compile(block, folder)
         if language in ("text", ""):
@@ -208,13 +213,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--abut", default=ROOT / "build/release/bin/abut", type=Path)
     parser.add_argument("--library", type=Path, default=ROOT / "build/release/libabut_contact.a")
+    parser.add_argument("--python", default=sys.executable, help="interpreter that the module abut is for")
+    parser.add_argument("--python-path", type=Path, help="folder of the package abut, e.g. build/release/python")
     parser.add_argument("--only", nargs="*", default=[], help="pages, as paths from the root of the repository")
     parser.add_argument("--list", action="store_true", help="say what each block is")
     args = parser.parse_args()
 
     pages = [ROOT / name for name in PAGES] + sorted((ROOT / "docs").rglob("*.md"))
     counts, faults, by_hand = {}, [], []
-    runner = Runner(args.abut.resolve(), args.library.resolve() if args.library.is_file() else None)
+    runner = Runner(args.abut.resolve(), args.library.resolve() if args.library.is_file() else None, args.python,
+                    args.python_path.resolve() if args.python_path else None)
     for path in pages:
         page = path.relative_to(ROOT).as_posix()
         if args.only and page not in args.only:
@@ -227,6 +235,8 @@ def main():
                 shutil.copytree(ROOT / "scripts", folder / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
                 (folder / "build/release").mkdir(parents=True)
                 (folder / "build/release/bin").symlink_to(runner.program.parent)
+                if runner.python_path:
+                    (folder / "build/release/python").symlink_to(runner.python_path)
                 if (ROOT / "tools").is_dir():
                     shutil.copytree(ROOT / "tools", folder / "tools", ignore=shutil.ignore_patterns("__pycache__"))
             for block in blocks:

@@ -21,6 +21,7 @@ RESERVED = [
     (re.compile(r"^mpi\.h$"), ("src/parallel/",), "MPI"),
     (re.compile(r"^vtk\w*\.h$"), ("src/output/", "src/report/"), "VTK"),
     (re.compile(r"^CLI/"), ("apps/",), "CLI11"),
+    (re.compile(r"^pybind11/"), ("bindings/",), "pybind11"),
 ]
 LONG_FILE = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -85,7 +86,7 @@ def check_file(root, path):
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
     faults = warnings = files = 0
-    for folder in ("include", "src", "apps"):
+    for folder in ("include", "src", "apps", "bindings"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix not in (".hpp", ".cpp", ".h"):
                 continue
@@ -94,7 +95,7 @@ def main():
             for number, message in check_file(root, path):
                 print(f"{relative}:{number}: {message}")
                 faults += 1
-    for folder in ("include", "src", "apps", "tests", "bench", "examples"):
+    for folder in ("include", "src", "apps", "bindings", "tests", "bench", "examples"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (".hpp", ".cpp", ".h", ".py"):
                 lines = len(path.read_text(encoding="utf-8").splitlines())

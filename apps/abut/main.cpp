@@ -41,7 +41,7 @@ Exit status: 0 done, 1 the deck has errors or the run did not reach its end, 2 w
 int main(int argc, char** argv) {
   using namespace abut::app;
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of the write, like a full disk
-  CLI::App app{"abut: explicit dynamics with two-surface contact, from Radioss decks"};
+  CLI::App app{"explicit dynamics with two-surface contact, from Radioss decks", "abut"};
   app.footer(examples);
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return abut::version_text(); });

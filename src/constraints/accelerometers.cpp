@@ -45,9 +45,9 @@ void Accelerometers::record(const state::State& state) {
 }
 
 void Accelerometers::persist(state::Archive& a) {
-  a.each(instruments_, [&a](Instrument& i) {
-    a(i.raw);
-    for (Section& s : i.sections) {
+  a.each(instruments_, [&a](Instrument& instrument) {
+    a(instrument.raw);
+    for (Section& s : instrument.sections) {
       for (Vec3* v : {&s.value, &s.rate, &s.pull}) a(*v);
     }
   });

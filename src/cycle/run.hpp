@@ -28,6 +28,7 @@ struct RunOptions {
   Profile profile;
   init::InterfaceChoices contacts;           ///< beyond the cards: normal law, gradual starts
   std::vector<ContactRecording> recordings;  ///< call logs to be written
+  bool interfaces = true;                    ///< false: as if the model had none (inspection before a run)
   int hash_every = 0;                        ///< cycles between state hashes, 0 = none
   std::vector<PhaseTime>* phases = nullptr;  ///< run() appends the phases here before the sink's end()
 };

@@ -45,20 +45,20 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
 
   walls_.initialise(state_);
   bodies_.initialise(state_);
-  interfaces_ = init::make_interfaces(model, options.profile, options.contacts, state_);
+  if (options.interfaces) interfaces_ = init::make_interfaces(model, options.profile, options.contacts, state_);
   contact_facets_ = ContactArea(model, interfaces_);
 
   std::vector<std::uint8_t> free_translation(n, 1);
   std::vector<std::uint8_t> free_rotation(n, 1);
-  for (const model::Interface& i : model.interfaces) releases_ = releases_ || i.ibc[0] || i.ibc[1] || i.ibc[2];
+  for (const model::Interface& i : model.interfaces) releases_ = releases_ || (options.interfaces && (i.ibc[0] || i.ibc[1] || i.ibc[2]));
   for (std::size_t i = 0; i < n; ++i) {
     const auto node = static_cast<Index>(i);
     // A boundary condition that contact may lift leaves the node free.
     if (!releases_ && boundary_.fixed(node, 0) && boundary_.fixed(node, 1) && boundary_.fixed(node, 2)) free_translation[i] = 0;
     if (boundary_.fixed(node, 3) && boundary_.fixed(node, 4) && boundary_.fixed(node, 5)) free_rotation[i] = 0;
   }
-  time_step_ = std::make_unique<TimeStep>(model, options.profile, has_two_sided_interface(model), std::move(free_translation),
-                                          std::move(free_rotation));
+  time_step_ = std::make_unique<TimeStep>(model, options.profile, options.interfaces && has_two_sided_interface(model),
+                                          std::move(free_translation), std::move(free_rotation));
   loaded_ = !model.concentrated_loads.empty() || !model.pressure_loads.empty();
   totals_wanted_ = !model.rigid_bodies.empty() || !model.rigid_walls.empty() || model.controls.mass_scaling;
   rotations_ = !model.rigid_bodies.empty() || !model.imposed_motions.empty() ||

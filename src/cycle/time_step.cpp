@@ -48,15 +48,15 @@ TimeStep::Smallest TimeStep::nodal(const state::State& s, bool rotations, parall
   const bool all = profile_.system_step == Profile::SystemStep::reference;
   return parallel::ordered_sum(s.mass.size(), leaves_, pool, [&](std::size_t begin, std::size_t end) {
     Smallest smallest;
+    // Most nodes are ruled out without a division: 2 m/K < h^2 only if 2 m < 1.000001 h^2 K, whatever the roundings.
+    const auto look = [&smallest](double inertia, double stiffness, std::size_t i, bool rotation) {
+      if (!(2.0 * inertia < 1.000001 * smallest.step * stiffness) || !(inertia > 0.0)) return;
+      const double h2 = 2.0 * inertia / stiffness;
+      if (h2 < smallest.step) smallest = {h2, static_cast<Index>(i), rotation};
+    };
     for (std::size_t i = begin; i < end; ++i) {
-      if (s.stiffness[i] > 0.0 && s.mass[i] > 0.0 && (all || free_translation_[i] != 0)) {
-        const double h2 = 2.0 * s.mass[i] / s.stiffness[i];
-        if (h2 < smallest.step) smallest = {h2, static_cast<Index>(i), false};
-      }
-      if (rotations && s.rotational_stiffness[i] > 0.0 && s.inertia[i] > 0.0 && (all || free_rotation_[i] != 0)) {
-        const double h2 = 2.0 * s.inertia[i] / s.rotational_stiffness[i];
-        if (h2 < smallest.step) smallest = {h2, static_cast<Index>(i), true};
-      }
+      if (all || free_translation_[i] != 0) look(s.mass[i], s.stiffness[i], i, false);
+      if (rotations && (all || free_rotation_[i] != 0)) look(s.inertia[i], s.rotational_stiffness[i], i, true);
     }
     return smallest;
   });

@@ -57,7 +57,7 @@ struct DeckPair {
   Deck starter;
   Deck engine;
   bool has_engine = false;
-  std::vector<Deck> restarts;  ///< of runs 2, 3, ...: each continues the one before
+  std::deque<Deck> restarts;  ///< of runs 2, 3, ...: each continues the one before (a deque: decks are not copied, views stay valid)
 };
 
 /// Reads NAME_0000.rad with its includes and NAME_0001.rad, NAME_0002.rad, ... beside it (deck-format.md A).

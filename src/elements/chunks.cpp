@@ -6,6 +6,7 @@ namespace abut::elements {
 
 ChunkTable::ChunkTable(std::span<const Index> nodes, int corners, int components) : components_(components) {
   const auto per_element = static_cast<std::size_t>(corners);
+  corners_ = per_element;
   const std::size_t elements = nodes.size() / per_element;
   blocks_ = (elements + lanes - 1) / lanes;
   // 18 kB of sums for a chunk of quadrilaterals, 23 kB for one of bricks: half of the first cache.
@@ -33,6 +34,11 @@ ChunkTable::ChunkTable(std::span<const Index> nodes, int corners, int components
 }
 
 std::size_t ChunkTable::end_block(std::size_t chunk) const { return std::min(blocks_, (chunk + 1) * blocks_per_chunk_); }
+
+std::size_t ChunkTable::place(Index element, int corner) const {
+  const auto e = static_cast<std::size_t>(element), block = e / lanes;
+  return first_[block / blocks_per_chunk_] + position_[(block * corners_ + static_cast<std::size_t>(corner)) * lanes + e % lanes];
+}
 
 std::span<const Index> ChunkTable::nodes(std::size_t chunk) const {
   return std::span<const Index>(node_).subspan(first_[chunk], first_[chunk + 1] - first_[chunk]);

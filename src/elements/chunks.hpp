@@ -32,6 +32,11 @@ class ChunkTable {
   /// Nodes of a chunk, ascending.
   [[nodiscard]] std::span<const Index> nodes(std::size_t chunk) const;
 
+  /// Nodes of all chunks, one after the other.
+  [[nodiscard]] std::span<const Index> nodes() const { return node_; }
+  /// Place in nodes() of a corner of an element.
+  [[nodiscard]] std::size_t place(Index element, int corner) const;
+
   /// Doubles that the sums of all chunks take.
   [[nodiscard]] std::size_t sum_count() const { return node_.size() * static_cast<std::size_t>(components_); }
   void set_offset(std::size_t offset) { offset_ = offset; }
@@ -42,7 +47,7 @@ class ChunkTable {
 
  private:
   int components_ = 0;
-  std::size_t blocks_ = 0, blocks_per_chunk_ = 0, offset_ = 0;
+  std::size_t blocks_ = 0, blocks_per_chunk_ = 0, offset_ = 0, corners_ = 0;
   std::vector<std::size_t> first_{0};
   std::vector<Index> node_;
   std::vector<std::uint16_t> position_;

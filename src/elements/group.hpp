@@ -141,6 +141,14 @@ class Group {
   [[nodiscard]] virtual std::vector<std::span<double>> history() = 0;
 
  protected:
+  /// Mass and, for shells, rotational inertia that the part sums see at each of chunks().nodes(): kept from one call of part_sums() to
+  /// the next, because there are fewer nodes than corners.
+  struct NodalShares {
+    bool valid = false;
+    std::vector<double> mass, inertia;
+    [[nodiscard]] PartSums sums(const ChunkTable& chunks, std::span<const Vec3> v, std::span<const Vec3> w) const;
+  };
+
   Index part_ = no_index;
   std::vector<Index> elements_;
   SlotLayout layout_;

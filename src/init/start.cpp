@@ -1,8 +1,8 @@
 #include "init/start.hpp"
 
-#include "init/locality.hpp"
-
 #include <utility>
+
+#include "init/locality.hpp"
 
 namespace abut::init {
 

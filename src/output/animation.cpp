@@ -1,6 +1,7 @@
 #include "output/animation.hpp"
 
 #include <fmt/format.h>
+#include <vtkAbstractArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataSetAttributes.h>
@@ -232,6 +233,11 @@ std::string Animation::Grid::serialise(const cycle::Snapshot& now) {
   cycle_->SetValue(0, now.state->times.cycle);
   fill_points(now);
   fill_cells(now);
+  // Else VTK writes what it remembers of an array: the range of an earlier state, and a file that depends on how many came before.
+  for (vtkFieldData* data :
+       {grid_->GetFieldData(), static_cast<vtkFieldData*>(grid_->GetPointData()), static_cast<vtkFieldData*>(grid_->GetCellData())}) {
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i) data->GetAbstractArray(i)->Modified();
+  }
   grid_->Modified();
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid_);

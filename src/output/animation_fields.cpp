@@ -158,7 +158,7 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
 }
 
 AnimationFields every_animation_field() {
-  std::vector<std::string> selections;
+  std::vector<std::string> selections{"TENS/STRESS/UPPER", "TENS/STRESS/LOWER", "TENS/STRESS/BEND"};
   for (const auto& entry : selectable_node_fields()) selections.emplace_back(entry.first);
   for (const auto& entry : selectable_cell_fields()) selections.emplace_back(entry.first);
   return select_animation_fields(selections);

@@ -45,7 +45,7 @@ struct AnimationFields {
 /// @param selections  model::Controls::animation_fields, upper case
 [[nodiscard]] AnimationFields select_animation_fields(const std::vector<std::string>& selections);
 
-/// All that there are.
+/// All that there are, without those of single integration points.
 [[nodiscard]] AnimationFields every_animation_field();
 
 }  // namespace abut::output

@@ -41,11 +41,9 @@ Inspection Model::inspect(const Choices& choices, bool with_step) const {
   out.part_mass.assign(model.parts.size(), 0.0);
   FirstCycle first(out.part_mass);
   {
-    model::Model bare = model;
-    bare.interfaces.clear();
-    bare.sections.clear();
-    bare.th_requests.clear();
-    cycle::Cycle(bare, options).advance(first);
+    cycle::RunOptions bare = options;
+    bare.interfaces = false;
+    cycle::Cycle(model, bare).advance(first);
   }
   out.contact = init::inspect_contacts(model, {first.x, first.v, first.mass, first.step});
   const auto is_error = [](const ContactFinding& c) { return c.finding.severity == contact::Severity::error; };

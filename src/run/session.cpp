@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <abut_commit.hpp>  // written by cmake/AbutCommit.cmake
 #include <algorithm>
 #include <set>
 #include <string>
@@ -15,9 +16,6 @@
 
 #ifndef ABUT_VERSION
 #define ABUT_VERSION "unknown"
-#endif
-#ifndef ABUT_COMMIT
-#define ABUT_COMMIT ""
 #endif
 
 namespace abut {

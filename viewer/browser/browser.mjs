@@ -38,8 +38,8 @@ export async function openReport(file, { width = 1280, height = 720, theme = "li
   page.on("request", (request) => {
     if (/^https?:/.test(request.url())) problems.push(`asks the network for ${request.url()}`);
   });
-  await page.goto(pathToFileURL(path.resolve(file)).href);
-  await page.waitForFunction(() => document.querySelector(".side .tab-panel")?.firstChild != null, null, { timeout: 30000 });
-  await page.waitForFunction(() => document.querySelector(".plots, .plot-place .empty") != null, null, { timeout: 30000 });
+  await page.goto(pathToFileURL(path.resolve(file)).href, { timeout: 120000 });
+  await page.waitForFunction(() => document.querySelector(".side .tab-panel")?.firstChild != null, null, { timeout: 120000 });
+  await page.waitForFunction(() => document.querySelector(".plots, .plot-place .empty") != null, null, { timeout: 120000 });
   return { page, browser: own, context, problems };
 }

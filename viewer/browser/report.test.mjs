@@ -64,6 +64,8 @@ test("the model, the outcome and the energies are named", async () => {
 });
 
 test("play: states follow each other and the picture changes", async () => {
+  await page.getByLabel("Colour by").selectOption({ label: "Displacement" });
+  await page.locator(".stage canvas").focus();
   await page.keyboard.press("Home");
   const before = await picture(page, "play-start");
   await page.locator("[data-action=play]").click();
@@ -77,6 +79,7 @@ test("play: states follow each other and the picture changes", async () => {
   await page.locator(".scrub").fill("2");
   await settle(page);
   assert.equal(await shown(page, "frame"), 2, "the slider scrubs");
+  await page.getByLabel("Colour by").selectOption({ label: "Contact pressure" });
 });
 
 test("recolour: another field has other colours, and the legend says which", async () => {
@@ -233,7 +236,7 @@ test("keyboard: everything is reached by Tab, tabs by arrows, help opens and clo
   assert.equal(
     await page.evaluate(
       () =>
-        [...document.querySelectorAll("button, input, select, canvas")].filter(
+        [...document.querySelectorAll("button, input, select, .stage canvas")].filter(
           (e) => !(e.getAttribute("aria-label") || e.textContent.trim() || e.closest("label")),
         ).length,
     ),

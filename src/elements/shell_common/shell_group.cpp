@@ -119,14 +119,14 @@ void ShellGroup::set_up() {
     for (int k = 0; k < 4; ++k) set(shell_constant::mass + k, share.mass[static_cast<std::size_t>(k)]);
     set(shell_constant::inertia, share.inertia_per_mass);
   }
-  if (!section_) return;
-
-  nodes_.resize(blocks * per_element_ * lanes);
-  steps_.assign(blocks * lanes, 1e30);
   std::vector<Index> flat;
   flat.reserve(elements_.size() * per_element_);
   for (Index e = 0; e < size(); ++e) flat.insert(flat.end(), nodes(e).begin(), nodes(e).end());
   chunks_ = ChunkTable(flat, static_cast<int>(per_element_), layout_.components);
+  if (!section_) return;
+
+  nodes_.resize(blocks * per_element_ * lanes);
+  steps_.assign(blocks * lanes, 1e30);
   add_block_ = choose_add_block(per_element_ == 4);
   results_.resize(static_cast<std::size_t>(chunks_.size()));
   state_.assign(blocks * static_cast<std::size_t>(section_->variables) * lanes, 0.0);
@@ -263,6 +263,7 @@ Index ShellGroup::first_bad_element(std::size_t chunk) const {
 
 void ShellGroup::set_rigid(std::span<const std::uint8_t> rigid) {
   if (rigid.size() != elements_.size()) throw std::invalid_argument("set_rigid: one flag per element of the group");
+  shares_.valid = false;
   for (std::size_t e = 0; e < rigid.size(); ++e) {
     constants_[((e / lanes) * shell_constant::count + shell_constant::active) * lanes + e % lanes] = rigid[e] != 0 ? 0.0 : 1.0;
   }
@@ -348,26 +349,22 @@ ElementOutput ShellGroup::output(Index element) const {
 }
 
 PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const {
-  PartSums sums;
-  const double n = static_cast<double>(per_element_);
-  for (Index e = 0; e < size(); ++e) {
-    if (constant(e, shell_constant::active) == 0.0) continue;
-    const double mass = element_mass(e);
-    const double t = initial_thickness(e), area = initial_area_[static_cast<std::size_t>(e)];
-    double v2 = 0.0, w2 = 0.0;
-    Vec3 mean;
-    for (const Index node : nodes(e)) {
-      const auto i = static_cast<std::size_t>(node);
-      v2 += squared_norm(v[i]);
-      mean += v[i];
-      if (!w.empty()) w2 += squared_norm(w[i]);
+  if (!shares_.valid) {
+    shares_.mass.assign(chunks_.nodes().size(), 0.0);
+    shares_.inertia.assign(chunks_.nodes().size(), 0.0);
+    for (Index e = 0; e < size(); ++e) {
+      if (constant(e, shell_constant::active) == 0.0) continue;
+      const double share = element_mass(e) / static_cast<double>(per_element_);
+      const double t = initial_thickness(e), area = initial_area_[static_cast<std::size_t>(e)];
+      for (int k = 0; k < layout_.nodes_per_element; ++k) {
+        const std::size_t place = chunks_.place(e, k);
+        shares_.mass[place] += share;
+        shares_.inertia[place] += share * (t * t + area) / 12.0;
+      }
     }
-    sums.mass += mass;
-    sums.kinetic_energy += 0.5 * mass / n * v2;
-    sums.rotational_energy += 0.5 * mass / n * (t * t + area) / 12.0 * w2;
-    sums.momentum += (mass / n) * mean;
+    shares_.valid = true;
   }
-  return sums;
+  return shares_.sums(chunks_, v, w);
 }
 
 }  // namespace abut::elements

@@ -87,6 +87,7 @@ class ShellGroup : public Group {
   std::vector<double> steps_;
   std::vector<ChunkResult> results_;
   AddBlock add_block_ = nullptr;
+  mutable NodalShares shares_;
   const Vec3* last_x_ = nullptr;
 };
 

@@ -228,6 +228,7 @@ GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, paralle
     result.hourglass_energy += chunk.hourglass;
     result.removed_energy += chunk.removed_energy;
     result.removed += chunk.removed;
+    if (chunk.removed > 0) shares_.valid = false;
     if (chunk.inverse_step > inverse_step) {
       inverse_step = chunk.inverse_step;
       result.step_element = chunk.step_element;
@@ -239,6 +240,7 @@ GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, paralle
 }
 
 void SolidGroup::set_rigid(std::span<const std::uint8_t> rigid) {
+  shares_.valid = false;
   for (Index e = 0; e < size(); ++e) at(e, f_live) = rigid[static_cast<std::size_t>(e)] != 0 ? 0.0 : at(e, f_off);
 }
 
@@ -278,31 +280,28 @@ ElementOutput SolidGroup::output(Index element) const {
 
 bool SolidGroup::active(Index element) const { return at(element, f_off) > 0.0; }
 
-PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> /*w*/) const {
-  PartSums sums;
-  const double share = 1.0 / nodes_per_element_;
-  for (Index e = 0; e < size(); ++e) {
-    if (!(at(e, f_live) > 0.0)) continue;
-    double mass = at(e, f_mass);
-    if (reference_part_mass_) mass = at(e, f_density) * at(e, f_volume);
-    Vec3 total;
-    double squares = 0.0;
-    for (const Index node : nodes(e)) {
-      const Vec3& u = v[static_cast<std::size_t>(node)];
-      total += u;
-      squares += squared_norm(u);
+PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const {
+  // rho^n V_0 of the reference's small strain changes from cycle to cycle.
+  if (!shares_.valid || reference_part_mass_) {
+    shares_.mass.assign(chunks_.nodes().size(), 0.0);
+    const double share = 1.0 / nodes_per_element_;
+    for (Index e = 0; e < size(); ++e) {
+      if (!(at(e, f_live) > 0.0)) continue;
+      const double mass = reference_part_mass_ ? at(e, f_density) * at(e, f_volume) : at(e, f_mass);
+      for (int k = 0; k < nodes_per_element_; ++k) shares_.mass[chunks_.place(e, k)] += share * mass;
     }
-    sums.mass += mass;
-    sums.kinetic_energy += 0.5 * share * mass * squares;
-    sums.momentum += (share * mass) * total;
+    shares_.valid = true;
   }
-  return sums;
+  return shares_.sums(chunks_, v, w);
 }
 
 double SolidGroup::element_mass(Index element) const { return at(element, f_mass); }
 
 double SolidGroup::element_energy(Index element) const { return at(element, f_energy) + at(element, f_hourglass); }
 
-std::vector<std::span<double>> SolidGroup::history() { return {std::span<double>(state_)}; }
+std::vector<std::span<double>> SolidGroup::history() {
+  shares_.valid = false;  // whoever restores a history may change which elements live
+  return {std::span<double>(state_)};
+}
 
 }  // namespace abut::elements

@@ -59,6 +59,7 @@ class SolidGroup : public Group {
   std::vector<std::int32_t> block_offsets_;
   std::vector<double> state_;
   std::vector<SolidChunk> results_;
+  mutable NodalShares shares_;
 };
 
 /// V^(-1/3) for V > 0, without libm.

@@ -20,11 +20,14 @@ namespace {
 
 using model::base_deck::base_engine;
 using model::base_deck::base_starter;
+using model::base_deck::integers;
+using model::base_deck::reals;
 using model::base_deck::with_line;
 
 class Folder {
  public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("abut_restart_" + std::to_string(::getpid()) + "_" + std::to_string(count_++))) {
+  Folder()
+      : path_(std::filesystem::temp_directory_path() / ("abut_restart_" + std::to_string(::getpid()) + "_" + std::to_string(count_++))) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() { std::filesystem::remove_all(path_); }
@@ -66,13 +69,13 @@ void expect_same(const Run& a, const Run& b, const std::string& what) {
   }
   EXPECT_EQ(a.history().names, b.history().names) << what;
   EXPECT_EQ(a.history().values, b.history().values) << what;
-  for (const std::string& name : Run::node_field_names()) EXPECT_EQ(a.node_field(name), b.node_field(name)) << what << ' ' << name;
+  for (const std::string& name : abut::Run::node_field_names()) EXPECT_EQ(a.node_field(name), b.node_field(name)) << what << ' ' << name;
 }
 
 /// Runs to the end; at some cycles a copy goes on from a checkpoint in memory of its own and must end alike.
 void expect_restarts(const Model& model, const RunSettings& settings, const std::vector<std::int64_t>& cycles, const std::string& what) {
   const Folder folder;
-  Run run(model, settings);
+  abut::Run run(model, settings);
   run.advance_to_end([&](Run& r) {
     for (const std::int64_t c : cycles) {
       if (r.cycle() == c) r.save(folder.file((std::to_string(c) + ".rst").c_str()));
@@ -84,7 +87,7 @@ void expect_restarts(const Model& model, const RunSettings& settings, const std:
   for (const std::int64_t c : cycles) {
     RunSettings other = settings;
     other.threads = settings.threads == 1 ? 3 : 1;
-    Run again = Run::load(model, folder.file((std::to_string(c) + ".rst").c_str()), other);
+    abut::Run again = abut::Run::load(model, folder.file((std::to_string(c) + ".rst").c_str()), other);
     EXPECT_EQ(again.cycle(), c);
     again.advance_to_end();
     expect_same(run, again, what + " from cycle " + std::to_string(c));
@@ -98,11 +101,16 @@ TEST(Restart, EveryKindOfConditionAndInterfaceGoesOnWithTheSameBits) {
   }
 }
 
-TEST(Restart, DeletedElementsScaledMassesAndSensorsGoOnWithTheSameBits) {
+TEST(Restart, DeletedElementsScaledMassesSensorsAndInstrumentsGoOnWithTheSameBits) {
   // The plates tear at a small plastic strain; the lid becomes rigid while the run goes on.
-  std::string starter = with_line(base_starter, "/MAT/PLAS_JOHNS/2", 4, "                 0.3                 0.5                 0.5              0.0002                   0");
-  starter = with_line(starter, "/RBODY/1", 2, "        30         1         0         0                1E-6         3         0         0         0");
+  std::string starter = with_line(base_starter, "/MAT/PLAS_JOHNS/2", 4,
+                                  "                 0.3                 0.5                 0.5              0.0002                   0");
+  starter = with_line(starter, "/RBODY/1", 2,
+                      "        30         1         0         0                1E-6         3         0         0         0");
   starter = with_line(starter, "/INTER/TYPE5/2", 2, "         4         3                                                 0         1");
+  starter.replace(
+      starter.find("/TH/PART/2"), 0,
+      "/ACCEL/5\nsensor\n" + integers({"13", "1", ""}) + reals({"1.65"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n");
   const std::string engine = std::string(base_engine) + "/DT/NODA/CST\n0.9 1.5e-4\n";
   const Model model = base_model(starter, engine);
   expect_restarts(model, settings_of(Rules::standard), {3, 80, 200}, "deleted");
@@ -111,11 +119,11 @@ TEST(Restart, DeletedElementsScaledMassesAndSensorsGoOnWithTheSameBits) {
 TEST(Restart, VelocitiesThatWereChangedAreInTheCheckpoint) {
   const Folder folder;
   const Model model = base_model();
-  Run run(model, settings_of(Rules::standard));
+  abut::Run run(model, settings_of(Rules::standard));
   for (int i = 0; i < 20; ++i) run.advance();
   run.edit_velocities()[9].x += 1.0;
   run.save(folder.file("edited.rst"));
-  Run again = Run::load(model, folder.file("edited.rst"), settings_of(Rules::standard));
+  abut::Run again = abut::Run::load(model, folder.file("edited.rst"), settings_of(Rules::standard));
   for (int i = 0; i < 20; ++i) {
     run.advance();
     again.advance();
@@ -125,7 +133,7 @@ TEST(Restart, VelocitiesThatWereChangedAreInTheCheckpoint) {
 
 std::string message_of_load(const Model& model, const std::filesystem::path& file, const RunSettings& settings) {
   try {
-    (void)Run::load(model, file, settings);
+    (void)abut::Run::load(model, file, settings);
     return {};
   } catch (const RunError& error) { return error.what(); }
 }
@@ -135,12 +143,13 @@ TEST(Restart, OtherModelsRulesAndFilesAreRefusedByName) {
   const RunSettings settings = settings_of(Rules::standard);
   const auto file = folder.file("a.rst");
   {
-    Run run(base_model(), settings);
+    abut::Run run(base_model(), settings);
     run.advance();
     run.save(file);
   }
   EXPECT_EQ(message_of_load(base_model(), file, settings), "");
-  const Model other = base_model(with_line(base_starter, "/NODE", 3, "         3                   1                1.01                   0"));
+  const Model other =
+      base_model(with_line(base_starter, "/NODE", 3, "         3                   1                1.01                   0"));
   EXPECT_NE(message_of_load(other, file, settings).find("it is of another model"), std::string::npos);
   EXPECT_NE(message_of_load(base_model(), file, settings_of(Rules::reference)).find("another rule set"), std::string::npos);
   EXPECT_NE(message_of_load(base_model(), folder.file("none.rst"), settings).find("No such file"), std::string::npos);
@@ -152,13 +161,13 @@ TEST(Restart, ASecondCheckpointKeepsTheFirst) {
   const Folder folder;
   const Model model = base_model();
   const RunSettings settings = settings_of(Rules::standard);
-  Run run(model, settings);
+  abut::Run run(model, settings);
   run.advance();
   run.save(folder.file("a.rst"));
   run.advance();
   run.save(folder.file("a.rst"));
-  EXPECT_EQ(Run::load(model, folder.file("a.rst"), settings).cycle(), 2);
-  EXPECT_EQ(Run::load(model, folder.file("a_previous.rst"), settings).cycle(), 1);
+  EXPECT_EQ(abut::Run::load(model, folder.file("a.rst"), settings).cycle(), 2);
+  EXPECT_EQ(abut::Run::load(model, folder.file("a_previous.rst"), settings).cycle(), 1);
 }
 
 /// Damaged files: every one is refused with a message, whatever was changed.
@@ -166,7 +175,7 @@ TEST(Restart, EveryFlippedBitAndEveryCutIsFound) {
   const Folder folder;
   const Model model = base_model();
   const RunSettings settings = settings_of(Rules::standard);
-  Run run(model, settings);
+  abut::Run run(model, settings);
   for (int i = 0; i < 70; ++i) run.advance();
   run.save(folder.file("good.rst"));
   const std::vector<std::byte> good = output::read_bytes(folder.file("good.rst"));
@@ -190,7 +199,7 @@ TEST(Restart, AFileWithARightChecksumIsNotTrusted) {
   const Model model = base_model();
   RunSettings settings = settings_of(Rules::standard);
   settings.record_history = false;
-  Run run(model, settings);
+  abut::Run run(model, settings);
   for (int i = 0; i < 70; ++i) run.advance();
   run.save(folder.file("good.rst"));
   const std::vector<std::byte> file = output::read_bytes(folder.file("good.rst"));
@@ -214,7 +223,7 @@ TEST(Restart, AFileWithARightChecksumIsNotTrusted) {
     }
     put(folder.file("changed.rst"), state::seal(changed));
     try {
-      Run again = Run::load(model, folder.file("changed.rst"), settings);
+      abut::Run again = abut::Run::load(model, folder.file("changed.rst"), settings);
       again.advance();  // what was changed is a number that no check can know
     } catch (const RunError&) { ++refused; }
   }

@@ -113,13 +113,6 @@ class Plot {
         cursor: {
           points: { size: 6 },
           drag: { x: true, y: false },
-          bind: {
-            click: (u, _t, handler) => (event: MouseEvent) => {
-              handler(event);
-              if (u.cursor.left !== undefined && u.cursor.left >= 0 && !this.dragged) this.host.goTo(u.posToVal(u.cursor.left, "x"));
-              return null;
-            },
-          },
         },
         legend: { live: true },
         scales: {
@@ -152,6 +145,12 @@ class Plot {
           })),
         ],
         hooks: {
+          ready: [
+            (u) =>
+              u.over.addEventListener("click", () => {
+                if (!this.dragged && u.cursor.left! >= 0) this.host.goTo(u.posToVal(u.cursor.left!, "x"));
+              }),
+          ],
           setSeries: [
             (_u, index, opts) => {
               if (index !== null && index > 0 && opts.show !== undefined) this.on[index - 1] = opts.show;

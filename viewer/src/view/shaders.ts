@@ -44,7 +44,7 @@ out vec4 color;
 void main() {
   vec3 normal = normalize(cross(dFdx(vView), dFdy(vView)));
   float facing = abs(normal.z);
-  float light = 0.42 + 0.46 * facing + 0.12 * max(0.0, dot(normal, normalize(vec3(0.35, 0.75, 0.55))));
+  float light = 0.6 + 0.3 * facing + 0.12 * max(0.0, dot(normal, normalize(vec3(0.35, 0.75, 0.55))));
   vec3 base = texelFetch(uParts, ivec2(int(vPart + 0.5), 0), 0).rgb;
   bool gap = uMode == 2 || (uMode == 1 ? vFlat < -1e29 : vGap > 0.5);
   float value = uMode == 1 ? vFlat : vSmooth;

@@ -1,0 +1,99 @@
+"""Cards of a deck: fields of 10 and 20 columns from Python values and arrays, checked."""
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+DIRECTIONS = ("X", "Y", "Z", "XX", "YY", "ZZ")
+
+
+def real(value: float) -> str:
+    """A number in 20 columns, with as many digits as fit: at least 13, all 17 for most."""
+    text = repr(float(value))
+    digits = 16
+    while len(text) > 20:
+        text = f"{float(value):.{digits}g}"
+        digits -= 1
+    return f"{text:>20}"
+
+
+def reals(*values: float) -> str:
+    return "".join(real(value) for value in values)
+
+
+def integers(*values: int | str) -> str:
+    return "".join(f"{value:>10}" for value in values)
+
+
+def checked_text(value: str, name: str) -> str:
+    """One line that cannot be taken for a keyword or a comment."""
+    if any(ord(character) < 32 for character in value) or value.startswith(("/", "#", "$")):
+        raise ValueError(f"{name} {value!r} must be one line that does not begin with /, # or $")
+    if len(value) > 100:
+        raise ValueError(f"{name} has {len(value)} characters, at most 100 fit on a card")
+    return value
+
+
+def finite(value: float, name: str) -> float:
+    if not np.isfinite(value):
+        raise ValueError(f"{name} is {value}, expected a finite number")
+    return float(value)
+
+
+def vectors(value: ArrayLike, name: str) -> NDArray[np.float64]:
+    """(N, 3) finite numbers."""
+    array = np.asarray(value, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name} has shape {array.shape}, expected (N, 3)")
+    bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if bad.size > 0:
+        raise ValueError(f"{name}: row {bad[0]} is not finite")
+    return array
+
+
+def vector(value: ArrayLike, name: str) -> NDArray[np.float64]:
+    array = np.asarray(value, dtype=np.float64)
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise ValueError(f"{name} is {array.tolist()}, expected three finite numbers")
+    return array
+
+
+def id_array(value: ArrayLike, name: str, columns: Sequence[int] = ()) -> NDArray[np.int64]:
+    """(K,) positive integers, or (K, c) with c among `columns`."""
+    array = np.asarray(value)
+    if array.size == 0:
+        array = array.astype(np.int64)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} holds {array.dtype}, expected integers (ids)")
+    if columns:
+        if array.ndim != 2 or array.shape[1] not in columns:
+            raise ValueError(f"{name} has shape {array.shape}, expected {' or '.join(f'(K, {c})' for c in columns)}")
+    elif array.ndim != 1:
+        raise ValueError(f"{name} has shape {array.shape}, expected (K,)")
+    if array.size > 0 and array.min() < 1:
+        raise ValueError(f"{name} holds {array.min()}: ids are positive (nodes() returns those of its nodes)")
+    return array.astype(np.int64)
+
+
+def in_rows(ids: Iterable[int], width: int = 10) -> list[str]:
+    """Ids, ten a card."""
+    listed = list(ids)
+    return [integers(*listed[k:k + width]) for k in range(0, len(listed), width)]
+
+
+def direction(value: str, rotations: bool = True) -> str:
+    allowed = DIRECTIONS if rotations else DIRECTIONS[:3]
+    word = value.upper()
+    if word not in allowed:
+        raise ValueError(f"direction is {value!r}, expected one of {', '.join(allowed)}")
+    return word
+
+
+def axes(value: str, name: str) -> str:
+    """'xz' to '101'."""
+    word = value.lower()
+    if any(letter not in "xyz" for letter in word):
+        raise ValueError(f"{name} is {value!r}, expected letters out of 'xyz'")
+    return "".join("1" if letter in word else "0" for letter in "xyz")

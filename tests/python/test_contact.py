@@ -1,0 +1,229 @@
+"""The contact library on its own: closed forms, arrays at the border, history."""
+import numpy as np
+import pytest
+
+from abut import contact
+
+GAP, CLEARANCE, FACET = 0.2, 0.1, 10.0
+
+
+def squares(clearance=CLEARANCE):
+    """Two unit squares that face each other. @returns x (8, 3), first and second surface"""
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    x = np.vstack([np.column_stack([square, np.full(4, z)]) for z in (0.0, clearance)])
+    return x, contact.Surface([[0, 1, 2, 3]]), contact.Surface([[4, 7, 6, 5]])
+
+
+def interface(law="constant", switch_correction=False, lower_size=1.0, **options):
+    x, lower, upper = squares()
+    x[:4, :2] = 0.5 + lower_size * (x[:4, :2] - 0.5)
+    rules = contact.Rules(law=law, switch_correction=switch_correction)
+    made = contact.Interface.two_surfaces(lower, upper, contact.Options(gap=GAP, rules=rules, **options))
+    for side in (0, 1):
+        made.set_surface(side, stiffness=[FACET])
+    return x, made
+
+
+def evaluated(made, x, v=None, **arguments):
+    force, stiffness = np.zeros((len(x), 3)), np.zeros(len(x))
+    v = np.zeros_like(x) if v is None else v
+    made.search(x, v, **arguments)
+    return made.evaluate(x, v, force, stiffness, **arguments), force, stiffness
+
+
+def test_force_of_two_squares():
+    """8 nodes held by K = s K1 K2/(K1 + K2), K1 = FACET/4, K2 = FACET, in both passes (T10, T13): F = 8 K P, and 2 K per node."""
+    x, made = interface()
+    result, force, stiffness = evaluated(made, x)
+    k = 0.2 * (FACET / 4) * FACET / (FACET / 4 + FACET)
+    np.testing.assert_allclose(force[:4].sum(axis=0), [0, 0, -8 * k * (GAP - CLEARANCE)], rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(force.sum(axis=0), 0, atol=1e-15)
+    np.testing.assert_allclose(result.normal_force, force[4:].sum(axis=0), rtol=1e-12, atol=1e-15)
+    assert result.in_contact == 8 and result.largest_penetration == pytest.approx(GAP - CLEARANCE)
+    assert (stiffness > 0).all()
+    np.testing.assert_array_equal(np.sort(made.nodes_in_contact), np.arange(8))
+    normal, tangential = made.nodal_forces(8)
+    np.testing.assert_allclose(normal, force, rtol=1e-12, atol=1e-15)
+    np.testing.assert_array_equal(tangential, 0)
+    np.testing.assert_allclose(made.nodal_area(x), 0.25)
+
+
+def test_forces_are_added_into_the_hosts_arrays():
+    x, made = interface()
+    _, alone, stiffness = evaluated(made, x)
+    x, made = interface()
+    force, k = np.full((8, 3), 5.0), np.full(8, 7.0)
+    made.search(x, np.zeros_like(x))
+    made.evaluate(x, np.zeros_like(x), force, k)
+    np.testing.assert_allclose(force, alone + 5.0)
+    np.testing.assert_allclose(k, stiffness + 7.0)
+
+
+@pytest.mark.parametrize("name, value, error, words", [
+    ("force", np.zeros((8, 3), dtype=np.float32), TypeError, "force is added to: it must be a float64 array"),
+    ("force", [[0.0] * 3] * 8, TypeError, "force is added to: it must be a float64 array"),
+    ("force", np.zeros((3, 8)).T, TypeError, "force is added to: it must be in C order"),
+    ("force", np.zeros((7, 3)), ValueError, r"force has shape \(7, 3\), expected \(8, 3\)"),
+    ("stiffness", np.zeros((8, 1)), ValueError, r"stiffness has shape \(8, 1\), expected \(8,\)"),
+    ("x", np.zeros((5, 3)), ValueError, "x has 5 rows, but the surfaces name node 7"),
+    ("x", np.full((8, 3), np.nan), ValueError, "x: row 0 is not finite"),
+    ("x", np.zeros((8, 3), dtype=complex), TypeError, "x does not hold real numbers but complex128"),
+    ("v", np.zeros((9, 3)), ValueError, r"v has shape \(9, 3\), expected \(8, 3\)"),
+    ("mass", np.ones(3), ValueError, r"mass has shape \(3,\), expected \(8,\)"),
+])
+def test_arrays_that_are_refused(name, value, error, words):
+    x, made = interface()
+    arguments = dict(x=x, v=np.zeros_like(x), force=np.zeros((8, 3)), stiffness=np.zeros(8), mass=None)
+    made.search(x, arguments["v"])
+    arguments[name] = value
+    with pytest.raises(error, match=words):
+        made.evaluate(**arguments)
+
+
+def test_a_read_only_force_is_refused():
+    x, made = interface()
+    force = np.zeros((8, 3))
+    force.flags.writeable = False
+    with pytest.raises(TypeError, match="force is added to, but it is read-only"):
+        made.step(x, np.zeros_like(x), force, np.zeros(8), dt=1e-3)
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: contact.Surface([[0, 1, 1, 0]]), "facet"),
+    (lambda: contact.Surface([[0, 1]]), r"facets has shape \(1, 2\), expected \(F, 3\) or \(F, 4\)"),
+    (lambda: contact.Surface([[0, 1, -2]]), "-2 is not a node index"),
+    (lambda: contact.Options(gap=-1.0), "gap must be 0 or more"),
+    (lambda: contact.Options(initial="push"), "initial is 'push', expected one of 'keep'"),
+    (lambda: contact.Rules(law="soft"), "law is 'soft'"),
+    (lambda: contact.BothSidesOptions(gap=0.0), "gap must be positive"),
+    (lambda: interface()[1].commit(1e-3), "commit"),
+    (lambda: interface()[1].set_surface(2), "side is 2"),
+    (lambda: interface()[1].set_surface(0, stiffness=[1.0, 2.0]), r"stiffness has shape \(2,\), expected \(1,\)"),
+    (lambda: interface()[1].restore(b"not a history, but long enough"), ""),
+    (lambda: contact.Interface.two_surfaces(contact.Surface([[0, 1, 2]]), contact.Surface([[2, 3, 4]])), ""),
+])
+def test_values_that_are_refused(call, words):
+    with pytest.raises((ValueError, RuntimeError), match=words):
+        call()
+
+
+def flight(made, x, steps, mass, dt, one_call=False, start=None):
+    """Central differences with fixed steps: the upper square flies at the lower one, which is clamped."""
+    x, v = (x.copy(), np.zeros_like(x)) if start is None else start
+    if start is None:
+        x[4:, 2] = GAP + 0.05
+        v[4:] = (0.3, 0.0, -1.0)
+    inverse = np.where(np.arange(8) < 4, 0.0, 1.0 / mass)
+    m = np.where(np.arange(8) < 4, 0.0, mass)
+    for n in range(steps):
+        force, k = np.zeros((8, 3)), np.zeros(8)
+        if one_call:
+            result = made.step(x, v, force, k, dt=dt, mass=m)
+        else:
+            made.search(x, v, mass=m)
+            result = made.evaluate(x, v, force, k, mass=m)
+            made.commit(dt)
+        v = v + dt * inverse[:, None] * force
+        x = x + dt * v
+    return x, v, result
+
+
+def test_an_impact_gives_its_energy_back():
+    """Without friction the square leaves with the speed that it came with; energy made by the numerics is small and reported."""
+    x, made = interface(law="stiffening", switch_correction=True, lower_size=5.0)
+    _, v, result = flight(made, x, 4000, mass=0.1, dt=1e-3)
+    np.testing.assert_allclose(v[4:, 2], 1.0, rtol=2e-3)
+    np.testing.assert_allclose(v[4:, 0], 0.3, rtol=1e-9)
+    kinetic = 0.5 * 0.1 * (v[4:]**2).sum()
+    assert result.in_contact == 0 and result.elastic == 0
+    assert kinetic - 0.5 * 0.1 * 4 * (0.3**2 + 1) == pytest.approx(result.made, abs=1e-4)
+
+
+def test_friction_takes_energy():
+    x, made = interface(law="stiffening", switch_correction=True, lower_size=5.0, friction=0.05, tangential_ratio=20.0)
+    _, v, result = flight(made, x, 4000, mass=0.1, dt=1e-3)
+    # The normal impulse is 2 m v_n per node; friction slows the slip by mu times that.
+    np.testing.assert_allclose(v[4:, 0].mean(), 0.3 - 0.05 * 2.0, rtol=0.05)
+    assert result.friction_work > 0
+    lost = 0.5 * 0.1 * (4 * (0.3**2 + 1) - (v[4:]**2).sum())
+    assert lost == pytest.approx(result.friction_work - result.made, abs=1e-4)
+
+
+def test_one_call_is_three_verbs_and_threads_do_not_matter():
+    states = []
+    for one_call, threads in ((False, 1), (True, 1), (True, 2)):
+        x, made = interface(law="stiffening", friction=0.2)
+        made.set_threads(threads)
+        states.append(flight(made, x, 300, mass=0.1, dt=1e-3, one_call=one_call)[:2])
+    for state in states[1:]:
+        np.testing.assert_array_equal(state, states[0])
+
+
+def test_a_restored_history_goes_on_with_the_same_bits():
+    x, made = interface(law="stiffening", friction=0.2)
+    start = flight(made, x, 120, mass=0.1, dt=1e-3)[:2]
+    saved = made.history()
+    assert isinstance(saved, bytes)
+    expected = flight(made, x, 60, mass=0.1, dt=1e-3, start=start)[:2]
+    _, other = interface(law="stiffening", friction=0.2)
+    other.restore(saved)
+    np.testing.assert_array_equal(flight(other, x, 60, mass=0.1, dt=1e-3, start=start)[:2], expected)
+
+
+def test_one_pass_and_both_sides():
+    x, lower, _ = squares()
+    one_pass = contact.Interface.nodes_to_surface(np.arange(4, 8), lower, contact.Options(gap=GAP), node_stiffness=np.full(4, 2.5))
+    one_pass.set_surface(1, stiffness=[FACET])
+    result, force, _ = evaluated(one_pass, x)
+    assert result.in_contact == 4 and (force[4:, 2] > 0).all()
+    for side in (1, -1):
+        x[4:, 2] = side * CLEARANCE
+        both = contact.Interface.both_sides(np.arange(4, 8), lower, contact.BothSidesOptions(gap=GAP))
+        both.set_surface(0, stiffness=np.full(4, 2.5))
+        both.set_surface(1, stiffness=[FACET])
+        _, force, _ = evaluated(both, x)
+        assert (side * force[4:, 2] > 0).all()
+
+
+def test_an_inactive_facet_lets_go():
+    x, made = interface()
+    for side in (0, 1):
+        made.set_surface(side, active=[False])
+    result, force, _ = evaluated(made, x)
+    assert result.in_contact == 0 and not force.any()
+
+
+def test_projections_take_penetrations_away():
+    x, lower, upper = squares(clearance=0.05)
+    made = contact.Interface.two_surfaces(lower, upper, contact.Options(gap=GAP, initial="project"))
+    for side in (0, 1):
+        made.set_surface(side, stiffness=[FACET])
+    nodes, moves = made.projections(x)
+    assert len(nodes) > 0 and moves.shape == (len(nodes), 3)
+    x[nodes] += moves
+    assert abs(x[4:, 2].mean() - x[:4, 2].mean()) >= GAP - 1e-9
+
+
+def test_surfaces_know_their_neighbours():
+    surface = contact.Surface([[0, 1, 2, 3], [1, 4, 2, -1]], node_keys=[50, 40, 30, 20, 10])
+    assert len(surface) == 2
+    np.testing.assert_array_equal(surface.nodes, [4, 3, 2, 1, 0])
+    np.testing.assert_array_equal(surface.facets, [[0, 1, 2, 3], [1, 4, 2, 2]])
+    np.testing.assert_array_equal(surface.neighbours, [[-1, 1, -1, -1], [-1, -1, 0, -1]])
+    with pytest.raises(ValueError, match="read-only"):
+        surface.facets[0] = 0
+
+
+def test_inspection_finds_normals_that_look_away():
+    x, lower, upper = squares(clearance=0.3)
+    away = contact.Surface([[4, 5, 6, 7]])
+    assert not [f for f in contact.inspect(lower, upper, x, gap=GAP) if f.severity == "error"]
+    first = contact.inspect(lower, away, x, gap=GAP)[0]
+    assert first.code == "contact.normals_away" and first.severity == "error" and first.side == 1 and first.advice
+    np.testing.assert_array_equal(first.facets, [0])
+    below, above = contact.facing(lower, away, x, gap=GAP)
+    assert below.facets[0] == 1 and above.facets[0] == -1 and above.fraction == 0.0
+    flip_first, flip_second, ambiguous = contact.orient(lower, away, x, gap=GAP)
+    assert len(flip_first) == 0 and flip_second.tolist() == [0] and ambiguous == [False, False]
+    with pytest.raises(ValueError, match="second names node 9, but x has 8 rows"):
+        contact.inspect(lower, [[4, 5, 9]], x)

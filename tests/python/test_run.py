@@ -1,0 +1,285 @@
+"""Runs: going on, looking, changing, stopping; nothing leaks and nothing blocks."""
+import gc
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import abut
+from support import builder, one_cube, resident_bytes, two_blocks
+
+
+def run_of(**arguments):
+    return abut.Run(two_blocks(**arguments).build(), threads=1)
+
+
+def reference_hash(cycles):
+    run = run_of()
+    run.advance(cycles)
+    return run.state_hash
+
+
+def test_to_the_end():
+    run = run_of()
+    assert not run.is_over and run.outcome is None and run.cycle == 0
+    assert run.advance_to_end() is False
+    assert run.outcome.kind == "finished" and run.time >= 0.05 and run.outcome.cycles == run.cycle
+    assert run.advance() is False
+    assert abs(run.balance.err) < 0.01 and set(run.balance.terms()) >= {"IE", "KE", "CX"}
+    assert run.controller.kind != "none" and run.timings["run"] > 0
+
+
+def test_the_way_does_not_change_the_bits():
+    """Cycle by cycle, with callbacks, to a time and on more threads: the same state."""
+    expected = reference_hash(60)
+    stepwise = run_of()
+    while stepwise.cycle < 60:
+        stepwise.advance()
+    called = run_of()
+    called.advance_to_end(lambda r: r.cycle < 60)
+    timed = run_of()
+    timed.advance_to(stepwise.time - 1.5 * stepwise.step)
+    timed.advance(60 - timed.cycle)
+    threaded = abut.Run(two_blocks().build(), threads=2)
+    threaded.advance(60)
+    for run in (stepwise, called, timed, threaded):
+        assert run.cycle == 60 and run.state_hash == expected
+
+
+def test_a_callback_sees_every_nth_cycle_and_can_stop():
+    run = run_of()
+    seen = []
+    assert run.advance_to_end(lambda r: seen.append(r.cycle) or len(seen) < 3, every=7) is True
+    assert seen == [7, 14, 21] and run.cycle == 21 and not run.is_over
+    run.advance(39)
+    assert run.state_hash == reference_hash(60)
+
+
+def test_an_exception_of_a_callback_leaves_the_run_where_it_is():
+    run = run_of()
+
+    def fail(r):
+        if r.cycle == 10:
+            raise LookupError("as planned")
+
+    with pytest.raises(LookupError, match="as planned"):
+        run.advance_to_end(fail)
+    assert run.cycle == 10 and not run.is_over
+    run.advance(50)
+    assert run.state_hash == reference_hash(60)
+
+
+def test_views_follow_the_run_and_cannot_be_written():
+    run = run_of()
+    positions, masses = run.positions, run.masses
+    before = positions.copy()
+    run.advance(30)
+    np.testing.assert_array_equal(positions, run.positions)
+    assert np.shares_memory(positions, run.positions) and not np.array_equal(before, positions)
+    np.testing.assert_allclose(positions - run.displacements, run.model.coordinates, atol=1e-15)
+    assert masses.sum() == pytest.approx(2 * 7.8e-6, rel=1e-12)
+    for view in (positions, run.velocities, run.accelerations, run.contact_forces, run.displacements, masses):
+        with pytest.raises(ValueError, match="read-only"):
+            view[0] = 0
+    del run
+    gc.collect()
+    assert np.isfinite(positions).all()
+
+
+def test_changed_velocities_are_booked_as_external_work():
+    b = builder()
+    one_cube(b)
+    b.engine(1.0)
+    run = abut.Run(b.build())
+    run.advance(5)
+    with run.edit() as e:
+        e.velocities[:, 0] += 2.0
+        e.velocities[3:5] += (0.0, 0.5, 0.0)
+    assert run.velocities[3, 1] == 0.5 and run.cycle == 5
+    start = run.time
+    energy = 0.5 * (run.masses * (run.velocities**2).sum(axis=1)).sum()
+    run.advance(2)
+    assert run.balance.extw == pytest.approx(energy, rel=1e-12)
+    assert abs(run.balance.ledger) < 1e-12
+    assert run.displacements[:, 0].mean() == pytest.approx(2.0 * (run.time - start), rel=1e-12)
+
+    run.velocities = np.zeros((8, 3))
+    run.advance(1)
+    assert np.abs(run.velocities).max() < 0.1
+
+    with pytest.raises(ZeroDivisionError), run.edit() as e:
+        e.velocities[:] = 100.0
+        1 / 0
+    assert np.abs(run.velocities).max() < 0.1
+
+
+@pytest.mark.parametrize("value, words", [
+    (np.zeros((7, 3)), r"velocities has shape \(7, 3\), expected \(8, 3\)"),
+    (np.zeros(24), r"velocities has shape \(24,\), expected \(8, 3\)"),
+    (np.full((8, 3), np.inf), "velocities: row 0 is not finite"),
+])
+def test_velocities_that_are_refused(value, words):
+    b = builder()
+    one_cube(b)
+    b.engine(1.0)
+    run = abut.Run(b.build())
+    with pytest.raises(ValueError, match=words):
+        run.velocities = value
+
+
+def test_history_is_what_the_file_says(tmp_path):
+    with abut.Run(two_blocks().build(), output=tmp_path / "out") as run:
+        run.advance_to_end()
+    history, file = run.history, abut.History.read(tmp_path / "out")
+    assert history.names == file.names and history.names[0] == "time"
+    np.testing.assert_allclose(file.values, history.values, rtol=1e-8, atol=1e-12)
+    assert len(history.time) > 90 and set(history.find("INTER/1/F?Z")) == {"INTER/1/FNZ", "INTER/1/FTZ"}
+    assert np.abs(history["INTER/1/FNZ"]).max() > 0
+    np.testing.assert_array_equal(history.structured()["GLOBAL/KE"], history["GLOBAL/KE"])
+    assert dict(history)["time"] is not None and len(history) == len(history.names)
+    with pytest.raises(KeyError, match="FNQ"):
+        history["INTER/1/FNQ"]
+    assert json.loads((tmp_path / "out" / "run.json").read_text())["outcome"]
+
+
+def test_interfaces_and_fields():
+    run = run_of()
+    run.advance_to_end(lambda r: r.interfaces[0].in_contact == 0)
+    (result,) = run.interfaces
+    assert result.id == 1 and result.in_contact > 0 and result.normal_force.shape == (3,)
+    names = run.node_field_names()
+    assert {"displacement", "contact_force"} <= set(names)
+    np.testing.assert_array_equal(run.node_field("displacement"), run.displacements)
+    assert run.node_field("mass").shape == (16,)
+    assert run.element_field("brick", "stress").shape == (2, 6) and run.element_field("brick", "von_mises").shape == (2,)
+    assert run.element_field("shell4", "stress").shape == (0,)
+    with pytest.raises(ValueError, match="'heat' is not a field of nodes"):
+        run.node_field("heat")
+
+
+def test_finish_closes_the_files(tmp_path):
+    run = abut.Run(two_blocks().build(), output=tmp_path)
+    run.advance(25)
+    outcome = run.finish("enough")
+    assert (outcome.kind, outcome.message, outcome.cycles) == ("stopped", "enough", 25)
+    assert run.is_over and run.output == tmp_path
+    assert json.loads((tmp_path / "run.json").read_text())
+    assert len(abut.History.read(tmp_path).time) == len(run.history.time)
+
+
+def test_other_threads_go_on_meanwhile():
+    run = run_of(end=1e3)
+    counted, refused = 0, None
+    worker = threading.Thread(target=run.advance_to_end)
+    worker.start()
+    deadline = time.monotonic() + 60
+    while counted < 1000 and time.monotonic() < deadline:
+        counted += 1
+        try:
+            run.time
+        except RuntimeError as error:
+            refused = str(error)
+    assert worker.is_alive()
+    run.interrupt()
+    worker.join(60)
+    assert not worker.is_alive()
+    assert counted == 1000 and "goes on in another thread" in refused
+    assert run.outcome.kind == "interrupted" and run.cycle > 0
+
+
+def test_runs_in_two_threads_do_not_disturb_each_other():
+    runs = [run_of(), run_of(friction=0.5)]
+    alone = [run_of(), run_of(friction=0.5)]
+    for run in alone:
+        run.advance_to_end()
+    workers = [threading.Thread(target=run.advance_to_end) for run in runs]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join(60)
+    assert [run.state_hash for run in runs] == [run.state_hash for run in alone]
+    assert runs[0].state_hash != runs[1].state_hash
+
+
+INTERRUPTED = """
+import json, sys
+sys.path.insert(0, {folder!r})
+import abut
+from support import two_blocks
+run = abut.Run(two_blocks(end=1e3).build(), output={output!r}, threads=1)
+calls = 0
+def callback(r):
+    global calls
+    calls += 1
+print("going", flush=True)
+try:
+    run.advance_to_end(callback if {with_callback} else None)
+except KeyboardInterrupt:
+    print(json.dumps([run.is_over, run.outcome.kind, run.cycle, calls]))
+"""
+
+
+@pytest.mark.parametrize("with_callback", [False, True])
+def test_ctrl_c_raises_and_leaves_complete_files(tmp_path, with_callback):
+    script = INTERRUPTED.format(folder=str(Path(__file__).parent), output=str(tmp_path),
+                                with_callback=with_callback)
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "going\n"
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+    over, kind, cycle, calls = json.loads(out)
+    assert over and kind == "interrupted" and cycle > 0 and (calls > 0) == with_callback
+    written = json.loads((tmp_path / "run.json").read_text())
+    assert "interrupted" in json.dumps(written["outcome"])
+    assert len(abut.History.read(tmp_path).time) > 0
+
+
+def test_a_file_in_the_way_is_a_run_error(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(abut.RunError):
+        abut.Run(two_blocks().build(), output=tmp_path / "file")
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (dict(threads=-1), "threads must be 0"),
+    (dict(hash_every=-1), "hash_every must be 0"),
+    (dict(rules="other"), "rules is 'other'"),
+])
+def test_settings_that_are_refused(arguments, words):
+    with pytest.raises(ValueError, match=words):
+        abut.Run(two_blocks().build(), **arguments)
+
+
+def test_nothing_leaks():
+    """Models, runs, views, histories and exceptions, made and dropped: the process does not grow."""
+    text, engine = two_blocks().starter_text(), [two_blocks().engine_text()]
+
+    def one_round():
+        model = abut.Model.from_text(text, engine)
+        run = abut.Run(model, threads=2)
+        run.advance_to_end(lambda r: r.cycle < 30)
+        kept = [run.positions, run.history, run.interfaces, run.balance, model.coordinates, run.node_field("velocity")]
+        with run.edit() as e:
+            e.velocities += 1.0
+        try:
+            abut.Model.from_text(text.replace("/BCS/1", "/BEAM/1"), engine)
+        except abut.InputError as error:
+            kept.append(error.diagnostics)
+        return len(kept)
+
+    for _ in range(30):
+        one_round()
+    gc.collect()
+    before = resident_bytes()
+    for _ in range(150):
+        one_round()
+    gc.collect()
+    # One state of this model is some 100 kB: a leak of any of them would be 15 MB.
+    assert resident_bytes() - before < 4e6
