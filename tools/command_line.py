@@ -84,7 +84,7 @@ def roff(text):
 
 def man_page(top, pages):
     out = ['.\\" Written by tools/command_line.py from the program\'s --help; do not edit.', '.TH ABUT 1 "" "abut" "User commands"', ".SH NAME",
-           "abut \\- " + roff(top.about.partition(": ")[2]), ".SH SYNOPSIS"]
+           "abut \\- " + roff(top.about.removeprefix("abut: ")), ".SH SYNOPSIS"]
     for verb, _ in top.verbs:
         out += [".nf" if False else f".B abut {verb}", roff(synopsis(verb, pages[verb]).removeprefix(f"abut {verb} ")), ".br"]
     out += [".SH DESCRIPTION", roff(DESCRIPTION)]
