@@ -33,6 +33,9 @@ class Option:
         self.default = (re.search(r"=(\S+)$", re.sub(r"\{[^}]*\}", "", rest)) or [None, ""])[1]
         self.needs = (re.search(r"Needs: (\S+)", rest) or [None, ""])[1]
         self.value = {"TEXT": "FILE", "INT": "N", "FLOAT": "X"}.get(re.match(r"[A-Z]*", rest).group(0), "")
+        form = re.match(r"(ID[^\s,]*), ", text)  # a value with a form of its own: "ID:TIME, ..."
+        if form:
+            self.value, text = form.group(1), text[form.end():]
         if self.choices:
             self.value = "|".join(self.choices)
         self.text = text + (f" (default: {self.default})" if self.default else "") + (f" (with {self.needs})" if self.needs else "")
@@ -81,7 +84,7 @@ def roff(text):
 
 def man_page(top, pages):
     out = ['.\\" Written by tools/command_line.py from the program\'s --help; do not edit.', '.TH ABUT 1 "" "abut" "User commands"', ".SH NAME",
-           "abut \\- " + roff(top.about.partition(": ")[2]), ".SH SYNOPSIS"]
+           "abut \\- " + roff(top.about.removeprefix("abut: ")), ".SH SYNOPSIS"]
     for verb, _ in top.verbs:
         out += [".nf" if False else f".B abut {verb}", roff(synopsis(verb, pages[verb]).removeprefix(f"abut {verb} ")), ".br"]
     out += [".SH DESCRIPTION", roff(DESCRIPTION)]

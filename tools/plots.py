@@ -82,7 +82,7 @@ def press_fit(program, folder, out):
     axes.plot(time, [1e-2 * abs(f) for f in h["INTER/1/FTZ"]], color=ORANGE, label="push, times 10")
     axes.axhline(1e-2 * 0.1 * lame * 0.5 * math.pi * 1e-4, color=ORANGE, linewidth=0.8, linestyle="--")
     axes.set(xlabel="time, ms", ylabel="force on a quarter, kN", title="Press fit: a pin goes into a ring")
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower right")
     save(figure, out, "press_fit")
 
 

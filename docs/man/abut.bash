@@ -1,24 +1,37 @@
-# bash completion of abut, written by tools/make_command_line_docs.py
+# Completion of abut for bash. Written by tools/command_line.py from the program's --help; do not edit.
 _abut() {
-  local word="${COMP_WORDS[COMP_CWORD]}" before="${COMP_WORDS[COMP_CWORD-1]}" command="${COMP_WORDS[1]}"
+  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} verb= word
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    case $word in run|resume|check|report|replay|keywords) verb=$word; break ;; esac
+  done
   COMPREPLY=()
-  if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W 'run resume check report -h --help --version' -- "$word"))
-    return
-  fi
-  case "$command $before" in
-    'run --profile') COMPREPLY=($(compgen -W 'standard reference' -- "$word")); return ;;
-    'run --interface-law') COMPREPLY=($(compgen -W 'stiffening constant' -- "$word")); return ;;
-    'run --orient') COMPREPLY=($(compgen -W 'none auto' -- "$word")); return ;;
-    'check --profile') COMPREPLY=($(compgen -W 'standard reference' -- "$word")); return ;;
-    'check --orient') COMPREPLY=($(compgen -W 'none auto' -- "$word")); return ;;
+  case $verb:$before in
+    run:-o|run:--output) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    run:--threads) return ;;
+    run:--profile) COMPREPLY=($(compgen -W 'standard reference' -- "$current")); return ;;
+    run:--interface-law) COMPREPLY=($(compgen -W 'stiffening constant' -- "$current")); return ;;
+    run:--checkpoint-every) return ;;
+    run:--contact-ramp) return ;;
+    run:--record-contact) return ;;
+    run:--hash-every) return ;;
+    run:--orient) COMPREPLY=($(compgen -W 'none auto' -- "$current")); return ;;
+    run:--write-deck) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    resume:--deck) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    resume:--threads) return ;;
+    resume:--checkpoint-every) return ;;
+    check:--profile) COMPREPLY=($(compgen -W 'standard reference' -- "$current")); return ;;
+    check:--orient) COMPREPLY=($(compgen -W 'none auto' -- "$current")); return ;;
+    check:--write-deck) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    report:-o|report:--output) COMPREPLY=($(compgen -f -- "$current")); return ;;
   esac
-  case "$command $word" in
-    'run -'*) COMPREPLY=($(compgen -W '-h --help -o --output --threads --profile --interface-law --checkpoint-every --hash-every --timing --quiet --orient --write-deck --allow-findings' -- "$word")); return ;;
-    'resume -'*) COMPREPLY=($(compgen -W '-h --help --deck --threads --checkpoint-every --timing --quiet' -- "$word")); return ;;
-    'check -'*) COMPREPLY=($(compgen -W '-h --help --profile --json --orient --write-deck' -- "$word")); return ;;
-    'report -'*) COMPREPLY=($(compgen -W '-h --help -o --output --all-fields --quiet' -- "$word")); return ;;
+  case $verb in
+    run) COMPREPLY=($(compgen -W '-h --help -o --output --threads --profile --interface-law --checkpoint-every --contact-ramp --record-contact --hash-every --timing --quiet --orient --write-deck --allow-findings' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current") $(compgen -f -X '!*_[0-9][0-9][0-9][0-9].rad' -- "$current")) ;;
+    resume) COMPREPLY=($(compgen -W '-h --help --deck --threads --checkpoint-every --timing --quiet' -- "$current")) ;;
+    check) COMPREPLY=($(compgen -W '-h --help --profile --json --orient --write-deck' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current") $(compgen -f -X '!*_[0-9][0-9][0-9][0-9].rad' -- "$current")) ;;
+    report) COMPREPLY=($(compgen -W '-h --help -o --output --all-fields --quiet' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current")) ;;
+    replay) COMPREPLY=($(compgen -W '-h --help --steps' -- "$current")) ;;
+    keywords) COMPREPLY=($(compgen -W '-h --help' -- "$current")) ;;
+    *) COMPREPLY=($(compgen -W 'run resume check report replay keywords -h --help --version' -- "$current")) ;;
   esac
-  COMPREPLY=($(compgen -f -- "$word"))
 }
 complete -o filenames -F _abut abut
