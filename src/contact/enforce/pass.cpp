@@ -128,7 +128,10 @@ void Pass::search(const Side& held, const Side& surface, const SideLoads& surfac
     if (!held.node_active(i)) return -1.0;
     const NodeState& s = state_[at(i)];
     if (s.held == 0 || s.facet == no_index || !surface.active(s.facet)) return reach;
-    return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_);
+    // Lists are made with the usual strips; wider ones may bring a facet nearer by what they are wider.
+    const double wider =
+        s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
+    return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
   };
   candidates_.update(held, surface, reach_of, skin_, stale_);
   stale_ = false;
