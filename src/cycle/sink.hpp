@@ -40,7 +40,9 @@ struct InterfaceResult {
   double sw = 0.0;  ///< work put in by a gradual start; part of the external work
   Index in_contact = 0;
   double largest_penetration = 0.0;
-  Index crossed = 0;  ///< nodes that would have jumped through in the last step
+  Index deepest_node = no_index;
+  std::span<const Index> crossed;  ///< nodes that would have jumped through in the last step; valid as Snapshot is
+  std::span<const Index> lost;     ///< nodes that went over a free border in the last step; valid as Snapshot is
 };
 using WallResult = constraints::WallSums;
 using BodyResult = constraints::BodySums;

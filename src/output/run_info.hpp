@@ -1,6 +1,7 @@
 // What a run is, for the listing and the manifest: facts that the snapshot does not hold.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -19,6 +20,8 @@ struct RunFinding {
   double time = 0.0;
   std::int64_t cycle = 0;
   double measure = 0.0;
+  std::vector<Id> nodes;                    ///< all of them; the text names twenty
+  std::vector<std::array<Id, 4>> segments;  ///< node ids
 };
 using RunFindings = std::vector<RunFinding>;
 

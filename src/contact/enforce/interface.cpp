@@ -129,6 +129,8 @@ void Interface::add_nodal_area(std::span<const Vec3> x, std::span<double> area) 
 }
 
 std::span<const Index> Interface::nodes_in_contact() const { return made_->model->nodes_in_contact(); }
+std::span<const Index> Interface::nodes_crossed() const { return made_->model->nodes_crossed(); }
+std::span<const Index> Interface::nodes_lost() const { return made_->model->nodes_lost(); }
 
 std::vector<std::byte> Interface::history() const { return made_->history(); }
 

@@ -68,8 +68,8 @@ struct PassTotals {
   double started = 0.0;  ///< work of a growing gap
   double largest_penetration = 0.0, largest_approach = 0.0;
   double kinematic_step = 1e30;
-  Index kinematic_node = no_index;
-  Index in_contact = 0, crossed = 0;
+  Index kinematic_node = no_index, deepest_node = no_index;
+  Index in_contact = 0;
 
   /// Adds those of the next nodes.
   PassTotals& operator+=(const PassTotals& b);
@@ -91,6 +91,9 @@ class Pass {
 
   /// Host indices of held nodes with P > 0.
   [[nodiscard]] const std::vector<Index>& in_contact() const { return in_contact_; }
+  /// Those that the swept test caught, those that went over a free border, in the last evaluate.
+  [[nodiscard]] const std::vector<Index>& crossed() const { return crossed_; }
+  [[nodiscard]] const std::vector<Index>& lost() const { return lost_; }
   void save(HistoryWriter& out) const;
   void load(HistoryReader& in);
   /// Forces the next search to rebuild its lists (activity changed).
@@ -103,7 +106,8 @@ class Pass {
     bool known = false;  ///< facet, point, normal, distance are valid
     bool contact = false;
     bool fresh_hit = false;
-    bool far = false;  ///< cannot touch now or in the coming step: not measured
+    bool lost = false;  ///< was held, and is now beyond the end of a free border
+    bool far = false;   ///< cannot touch now or in the coming step: not measured
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;
@@ -122,7 +126,7 @@ class Pass {
   struct GroupSums {
     PassTotals totals;
     std::vector<Reaction> reactions;
-    std::vector<Index> in_contact;
+    std::vector<Index> in_contact, crossed, lost;
   };
   struct Scene {
     const HostState& host;
@@ -151,7 +155,7 @@ class Pass {
   std::vector<double> depth_;  ///< per facet: how far behind a node is still met
   std::vector<NodeState> state_, next_;
   std::vector<Tracked> tracked_;
-  std::vector<Index> in_contact_;
+  std::vector<Index> in_contact_, crossed_, lost_;
   std::vector<GroupSums> groups_;
   std::vector<std::uint8_t> quiet_;  ///< Quiet of every held node
   Executor executor_;
