@@ -16,7 +16,7 @@ SIDE, DISTANCE, GAP = 0.1, 1e-3, 9e-4
 
 
 def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=True, upper_down=True, flipped=(), repeated=(), shift=0.0,
-           stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, start=0.0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0):
+           stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, start=0.0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0, slide=0.0):
     """Plate 1 below looks up, plate 2 above looks down, unless told otherwise."""
     mesh = Mesh()
     low, low_nodes = mesh.plate(lambda u, w: (stretch * SIDE * u, SIDE * w, valley * abs(u - 0.5)), lower, lower)
@@ -41,8 +41,8 @@ def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=T
         deck.lines[card] = reals(stfac) + deck.lines[card][20:60] + reals(start) + deck.lines[card][80:]
     deck.node_group(1, "lower", flat(low_nodes))
     deck.node_group(2, "upper", flat(high_nodes))
-    if speed:
-        deck.velocity(1, "fall", (0.0, 0.0, -speed), 2)
+    if speed or slide:
+        deck.velocity(1, "fall", (slide, 0.0, -speed), 2)
     if spin:
         turning = [node for row in high_nodes for node in row]
         for k, node in enumerate(turning, 2):
@@ -92,6 +92,9 @@ DECKS = {
     "bound_by_condition": dict(story="The lower plate cannot move.", extra=clamp),
     "deep_penetration": dict(story="The upper plate falls so fast that it sinks in by most of a segment.", gap=0.0, speed=3000.0),
     "crossed": dict(story="The upper plate falls so fast that nodes would jump through the lower one in a step.", gap=0.0, speed=8000.0),
+    "lost_over_border": dict(story="The upper plate is pressed on the lower one and shot sideways.", gap=3e-3, slide=1500.0, speed=20.0,
+                             lower_young=STEEL["young"] / 5, end=2e-5),
+    "bound_by_body": dict(story="The upper plate is a rigid body.", extra=body),
     "turned_away": dict(story="The upper plate turns over; its surface then looks up.", distance=0.054, gap=0.03, spin=2e3, end=2.2e-3, stfac=1e-9,
                         start=1.4e-3),
 }

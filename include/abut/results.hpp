@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "abut/types.hpp"
@@ -36,7 +37,9 @@ struct InterfaceResult {
   double sw = 0.0;                                ///< work put in by a gradual start; part of the external work
   Index in_contact = 0;                           ///< held nodes that touch, both passes
   double largest_penetration = 0.0;
-  Index crossed = 0;  ///< nodes that would have jumped through in the last step
+  Index deepest_node = no_index;   ///< the one that has penetrated by that much
+  std::span<const Index> crossed;  ///< nodes that would have jumped through in the last step; valid until the next cycle
+  std::span<const Index> lost;     ///< nodes that went over a free border in the last step; valid until the next cycle
 };
 
 /// Why and how a run ended.

@@ -9,6 +9,7 @@
 // Results do not depend on the number of threads. A Run is used by one thread at a time; different Runs are independent.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -72,6 +73,8 @@ struct RunFinding {
   double time = 0.0;
   std::int64_t cycle = 0;
   double measure = 0.0;
+  std::vector<Id> nodes;                    ///< all of them; the text names twenty
+  std::vector<std::array<Id, 4>> segments;  ///< node ids
 };
 
 class Run {

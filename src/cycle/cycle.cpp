@@ -139,7 +139,9 @@ void Cycle::contact_forces(StepLimits& limits) {
     out.cx = r.made;
     out.in_contact = r.in_contact;
     out.largest_penetration = r.largest_penetration;
-    out.crossed = r.crossed;
+    out.deepest_node = r.deepest_node;
+    out.crossed = i.contact.nodes_crossed();
+    out.lost = i.contact.nodes_lost();
     if (r.kinematic_step < limits.interface_step) {
       limits.interface_step = r.kinematic_step;
       limits.interface_controller = {StepController::Kind::interface, model_.interfaces[static_cast<std::size_t>(i.model_index)].id};

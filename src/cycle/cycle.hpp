@@ -113,10 +113,10 @@ class Cycle {
   ContactArea contact_facets_;
   std::vector<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;
-  bool releases_ = false;   // some interface asks for IBC
-  bool loaded_ = false;     // there are concentrated or pressure loads; else external forces stay zero
+  bool releases_ = false;       // some interface asks for IBC
+  bool loaded_ = false;         // there are concentrated or pressure loads; else external forces stay zero
   bool totals_wanted_ = false;  // bodies, walls or mass scaling read or change the total forces or the masses after assembly
-  bool rotations_ = false;  // some node has inertia, or can be turned by a condition
+  bool rotations_ = false;      // some node has inertia, or can be turned by a condition
 
   std::unique_ptr<TimeStep> time_step_;
   Ledger ledger_;

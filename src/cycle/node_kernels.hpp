@@ -14,7 +14,7 @@ struct AssembleArgs {
   const double* sums = nullptr;
   const std::uint32_t *shell_first = nullptr, *shell_at = nullptr;  ///< #N + 1 and where each node's sums begin; null: no such elements
   const std::uint32_t *solid_first = nullptr, *solid_at = nullptr;
-  const double *f_external = nullptr, *m_external = nullptr;         ///< null: no loads
+  const double *f_external = nullptr, *m_external = nullptr;        ///< null: no loads
   const double *f_contact = nullptr, *contact_stiffness = nullptr;  ///< null: no interfaces
   const double *mass = nullptr, *inertia = nullptr;
   double *f_internal = nullptr, *a = nullptr, *stiffness = nullptr;

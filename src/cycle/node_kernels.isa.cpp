@@ -10,9 +10,7 @@ namespace {
 using Four = simd::Pack<4>;
 using Real4 = simd::VectorOf<4>::real;
 
-ABUT_INLINE Four load3(const double* p) {
-  return Four(__builtin_shufflevector(simd::load_pair(p), simd::Pair{p[2], 0.0}, 0, 1, 2, 3));
-}
+ABUT_INLINE Four load3(const double* p) { return Four(__builtin_shufflevector(simd::load_pair(p), simd::Pair{p[2], 0.0}, 0, 1, 2, 3)); }
 ABUT_INLINE void store3(double* p, Four a) {
   const simd::Pair low = __builtin_shufflevector(a.r, a.r, 0, 1);
   __builtin_memcpy(p, &low, sizeof(low));

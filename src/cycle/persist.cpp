@@ -29,7 +29,8 @@ void persist_result(state::Archive& a, InterfaceResult& r) {
   for (Vec3* v : {&r.normal_force, &r.tangential_force, &r.normal_impulse, &r.tangential_impulse}) a(*v);
   for (double* d : {&r.ce, &r.fw, &r.dw, &r.cx, &r.sw, &r.largest_penetration}) a(*d);
   a(r.in_contact);
-  a(r.crossed);
+  a(r.deepest_node);
+  if (a.loading()) r.crossed = r.lost = {};  // of the last step only
 }
 
 }  // namespace

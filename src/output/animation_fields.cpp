@@ -136,7 +136,8 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
   const auto& cell_fields = selectable_cell_fields();
   AnimationFields fields{
       {displacement, velocity, contact_force, pressure_normal, pressure_tangential, contact_gap, contact_penetration, contact_state},
-      {plastic_strain, von_mises, stress}, {}};
+      {plastic_strain, von_mises, stress},
+      {}};
   const auto add_once = [](auto& list, const auto& field) {
     if (std::none_of(list.begin(), list.end(), [&](const auto& f) { return f.name == field.name; })) list.push_back(field);
   };

@@ -38,10 +38,10 @@ struct AnimationFields {
 
 /// Always: displacement, velocity, contact_force, contact_pressure_normal, contact_pressure_tangential (net contact force
 /// of the node over its tributary area, so two passes do not count twice; zero where the area is zero), contact_gap (distance to the
-/// other surface less the interface's gap, NaN where nothing is near), contact_penetration, contact_state (0 apart, 1 sticks, 2 slips); plastic_strain,
-/// von_mises, stress (XX YY ZZ XY YZ XZ, mean over the element, global axes).
-/// TENS/STRESS/UPPER, LOWER, BEND and n (an integration point from 1 at the bottom) add stress_upper, stress_lower,
-/// stress_bending and stress_point_n (elements::Group::layer_stress); ALL adds upper and lower.
+/// other surface less the interface's gap, NaN where nothing is near), contact_penetration, contact_state (0 apart, 1 sticks, 2 slips);
+/// plastic_strain, von_mises, stress (XX YY ZZ XY YZ XZ, mean over the element, global axes). TENS/STRESS/UPPER, LOWER, BEND and n (an
+/// integration point from 1 at the bottom) add stress_upper, stress_lower, stress_bending and stress_point_n
+/// (elements::Group::layer_stress); ALL adds upper and lower.
 /// @param selections  model::Controls::animation_fields, upper case
 [[nodiscard]] AnimationFields select_animation_fields(const std::vector<std::string>& selections);
 

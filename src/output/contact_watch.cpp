@@ -24,7 +24,44 @@ double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x
   return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
 }
 
+std::string counted(std::size_t nodes) { return nodes == 1 ? "1 node" : fmt::format("{} nodes", nodes); }
+
+std::vector<Id> ids_of(const cycle::Snapshot& now, std::span<const Index> nodes) {
+  std::vector<Id> ids;
+  for (const Index n : nodes) ids.push_back(now.model->node_id[static_cast<std::size_t>(n)]);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+std::vector<std::array<Id, 4>> segments_away(const cycle::Snapshot& now, const contact::InspectedSide& side,
+                                             const contact::Facing& facing) {
+  std::vector<std::array<Id, 4>> out;
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    if (facing.facet[f] >= 0) continue;
+    std::array<Id, 4> ids{};
+    for (std::size_t k = 0; k < 4; ++k) ids[k] = now.model->node_id[static_cast<std::size_t>(side.facets[f].node[k])];
+    out.push_back(ids);
+  }
+  return out;
+}
+
 }  // namespace
+
+/// ": nodes 1, 2" or ": segments (1 2 3 4)", twenty at most.
+std::string ContactWatch::first_ids(const Where& where) {
+  constexpr std::size_t listed = 20;
+  std::string text;
+  const auto add = [&](std::size_t count, const char* name, const auto& one) {
+    for (std::size_t i = 0; i < std::min(count, listed); ++i) text += (i == 0 ? fmt::format(": {} ", name) : ", ") + one(i);
+    if (count > listed) text += fmt::format(" (and {} more)", count - listed);
+  };
+  add(where.nodes.size(), where.nodes.size() == 1 ? "node" : "nodes", [&](std::size_t i) { return fmt::format("{}", where.nodes[i]); });
+  add(where.segments.size(), "segments", [&](std::size_t i) {
+    const auto& s = where.segments[i];
+    return fmt::format("({} {} {} {})", s[0], s[1], s[2], s[3]);
+  });
+  return text;
+}
 
 void ContactWatch::begin(const cycle::Snapshot& first) {
   // A run that goes on knows its start: the geometry is made of the model's positions, as it was then.
@@ -51,7 +88,7 @@ void ContactWatch::persist(state::Archive& a) {
   a.each_growing(interfaces_, [&a](Watched& w) {
     a(w.facing_at_start);
     a(w.size);
-    for (bool* said : {&w.turned, &w.deep, &w.made, &w.crossed}) a(*said);
+    for (bool* said : {&w.turned, &w.deep, &w.made, &w.crossed, &w.lost}) a(*said);
   });
   a(next_look_);
   a(next_look_cycle_);
@@ -63,6 +100,8 @@ void ContactWatch::persist(state::Archive& a) {
     a(f.time);
     a(f.cycle);
     a(f.measure);
+    a.growing(f.nodes);
+    a.growing(f.segments);
     f.diagnostic.severity = Severity::warning;
   });
 }
@@ -72,11 +111,20 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
     Watched& w = interfaces_[i];
     const cycle::InterfaceResult& r = now.interfaces[i];
     const model::Interface& card = now.model->interfaces[i];
-    if (!w.crossed && r.crossed > 0) {
+    if (!w.crossed && !r.crossed.empty()) {
       w.crossed = true;
-      say(now, i, "contact.crossed", r.crossed,
+      say(now, i, "contact.crossed", static_cast<double>(r.crossed.size()),
           fmt::format("{} would have jumped through the surface within one step and {} caught; lower the time step or make the gap larger",
-                      r.crossed == 1 ? "1 node" : fmt::format("{} nodes", r.crossed), r.crossed == 1 ? "was" : "were"));
+                      counted(r.crossed.size()), r.crossed.size() == 1 ? "was" : "were"),
+          {ids_of(now, r.crossed), {}});
+    }
+    if (!w.lost && !r.lost.empty()) {
+      w.lost = true;
+      say(now, i, "contact.lost_over_border", static_cast<double>(r.lost.size()),
+          fmt::format("{} slid over a free border of the other surface while pressed on it and {} held no more; let the surface go on "
+                      "to where they can get",
+                      counted(r.lost.size()), r.lost.size() == 1 ? "is" : "are"),
+          {ids_of(now, r.lost), {}});
     }
     const double limit = card.gap > 0.0 ? deep_share * card.gap : 0.5 * w.size;
     if (!w.deep && w.geometry != nullptr && r.largest_penetration > limit) {
@@ -84,7 +132,8 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
       say(now, i, "contact.deep_penetration", r.largest_penetration / limit,
           fmt::format("a node has penetrated by {:.4g} ({}); raise Stfac, the gap, or refine the mesh", r.largest_penetration,
                       card.gap > 0.0 ? fmt::format("{:.3g} of the gap", r.largest_penetration / card.gap)
-                                     : fmt::format("{:.3g} of a segment", r.largest_penetration / w.size)));
+                                     : fmt::format("{:.3g} of a segment", r.largest_penetration / w.size)),
+          {ids_of(now, std::span(&r.deepest_node, 1)), {}});
     }
     const double largest = now.balance->largest;
     if (!w.made && largest > 0.0 && std::abs(r.cx) > energy_share * largest) {
@@ -118,17 +167,18 @@ void ContactWatch::look(const cycle::Snapshot& now) {
                       "%), at a distance "
                       "of {:.4g}; contact is not felt there any more: choose the surfaces for the deformed shape too",
                       now.model->surfaces[static_cast<std::size_t>(w.geometry->surface(static_cast<int>(k)))].id,
-                      100.0 * facing[k].fraction(), 100.0 * w.facing_at_start[k], facing[k].distance));
+                      100.0 * facing[k].fraction(), 100.0 * w.facing_at_start[k], facing[k].distance),
+          {{}, segments_away(now, w.geometry->input(x).side[k], facing[k])});
     }
   }
 }
 
-void ContactWatch::say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text) {
+void ContactWatch::say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text, Where where) {
   const model::Interface& card = now.model->interfaces[interface];
   const double t = now.state->times.t;
   Diagnostic d{Severity::warning, code, card.place,
-               fmt::format("at time {:.6g} (cycle {}): {}. [{}]", t, now.state->times.cycle, text, code)};
-  log_->push_back({std::move(d), card.id, t, now.state->times.cycle, measure});
+               fmt::format("at time {:.6g} (cycle {}): {}{}. [{}]", t, now.state->times.cycle, text, first_ids(where), code)};
+  log_->push_back({std::move(d), card.id, t, now.state->times.cycle, measure, std::move(where.nodes), std::move(where.segments)});
 }
 
 }  // namespace abut::output

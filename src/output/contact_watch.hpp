@@ -27,7 +27,7 @@ class ContactWatch final : public cycle::Sink {
     std::unique_ptr<init::InspectedInterface> geometry;  ///< none for TYPE7, whose normals do not matter
     std::array<double, 2> facing_at_start{};             ///< NaN: undecided
     double size = 0.0;                                   ///< mean facet size of the finer side
-    bool turned = false, deep = false, made = false, crossed = false;
+    bool turned = false, deep = false, made = false, crossed = false, lost = false;
   };
   std::shared_ptr<RunFindings> log_;
   std::vector<Watched> interfaces_;
@@ -36,7 +36,13 @@ class ContactWatch final : public cycle::Sink {
   std::int64_t next_look_cycle_ = 0;  ///< no look before this cycle: a look costs about as much as some cycles
 
   void look(const cycle::Snapshot& now);
-  void say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text);
+  /// Whom it concerns.
+  struct Where {
+    std::vector<Id> nodes;
+    std::vector<std::array<Id, 4>> segments;
+  };
+  void say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text, Where where = {});
+  [[nodiscard]] static std::string first_ids(const Where& where);
 };
 
 }  // namespace abut::output

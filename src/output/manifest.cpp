@@ -90,6 +90,8 @@ void Manifest::end(const cycle::Outcome& outcome) {
                                  {"cycle", f.cycle},
                                  {"measure", f.measure},
                                  {"message", f.diagnostic.message}});
+    if (!f.nodes.empty()) j["run_findings"].back()["nodes"] = f.nodes;
+    if (!f.segments.empty()) j["run_findings"].back()["segments"] = f.segments;
   }
   j["hashes"] = Json::array();
   for (const RunRecord::Hash& hash : record_.hashes()) {

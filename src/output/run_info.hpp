@@ -1,6 +1,7 @@
 // What a run is, for the listing and the manifest: facts that the snapshot does not hold.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>

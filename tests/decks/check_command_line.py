@@ -31,7 +31,7 @@ def expect(condition, what, result=None):
 
 def usage(abut):
     expect(call(abut, "--version").returncode == 0, "--version ends with 0")
-    for arguments in (("--help",), ("run", "--help"), ("check", "--help")):
+    for arguments in (("--help",), ("run", "--help"), ("check", "--help"), ("replay", "--help")):
         expect(call(abut, *arguments).returncode == 0, f"{' '.join(arguments)} ends with 0")
     for arguments in ((), ("run",), ("fly",), ("run", "x", "--profile", "none"), ("run", "x", "--threads", "0"), ("run", "x", "--hash-every", "often")):
         result = call(abut, *arguments)
@@ -94,6 +94,31 @@ def complete(abut, deck, name, folder):
         expect(json.load(file)["outcome"]["kind"] == "finished", "run.json says that it finished")
 
 
+def recorded(abut, folder):
+    """--record-contact and --contact-ramp on a deck whose plates start within the gap; abut replay gives the same bits."""
+    decks = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "decks", "findings")
+    deck = os.path.join(decks, "initial_penetration", "initial_penetration_0000.rad")
+    output = os.path.join(folder, "recorded")
+    result = call(abut, "run", deck, "-o", output, "--quiet", "--contact-ramp", "1:5e-6", "--record-contact", "1")
+    expect(result.returncode == 0, "a recorded run ends with 0", result)
+    with open(os.path.join(output, "run.json")) as file:
+        expect(json.load(file)["settings"]["contact_ramp"] == {"1": 5e-06}, "run.json names the gradual start")
+    log = os.path.join(output, "initial_penetration_contact_1.calls")
+    result = call(abut, "replay", log, "--steps")
+    expect(result.returncode == 0 and "every bit as recorded" in result.stdout and "interface 1" in result.stdout, "replay agrees", result)
+    with open(log, "rb") as file:
+        whole = file.read()
+    for name, content in (("cut", whole[:-3]), ("flipped", whole[:3000] + bytes([whole[3000] ^ 8]) + whole[3001:])):
+        with open(log, "wb") as file:
+            file.write(content)
+        result = call(abut, "replay", log)
+        expect(result.returncode == 1 and "contact log: record" in result.stderr, f"a log that is {name} is refused", result)
+    for option, value, why in (("--contact-ramp", "7:1", "no such interface"), ("--contact-ramp", "1", "expected an interface id"),
+                               ("--record-contact", "1:2:3:4", "expected an interface id"), ("--record-contact", "x", "not a number")):
+        result = call(abut, "run", deck, "-o", output, option, value)
+        expect(result.returncode == 1 and why in result.stderr, f"{option} {value} is refused: {why}", result)
+
+
 def unwritable(abut, deck, folder):
     blocked = os.path.join(folder, "file")
     open(blocked, "w").close()
@@ -111,6 +136,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         interrupted(abut, endless(deck, os.path.join(folder, "deck")), name, os.path.join(folder, "interrupted"))
         complete(abut, deck, name, os.path.join(folder, "complete"))
+        recorded(abut, folder)
         unwritable(abut, deck, folder)
     print("the command line does what it says")
     return 0

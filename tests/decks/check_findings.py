@@ -31,11 +31,13 @@ BEFORE = {
     "contact.concave": ("concave", "note", "sound"),
     "contact.bound_by_wall": ("bound_by_wall", "warning", "sound"),
     "contact.bound_by_condition": ("bound_by_condition", "note", "sound"),
+    "contact.bound_by_body": ("bound_by_body", "note", "sound"),
 }
 DURING = {
     "contact.crossed": ("crossed", "deep_penetration", "standard"),
     "contact.deep_penetration": ("deep_penetration", "sound", "standard"),
     "contact.energy_made": ("crossed", "sound", "reference"),  # the reference's plain switching loses energy
+    "contact.lost_over_border": ("lost_over_border", "initial_penetration", "standard"),
     "contact.turned_away": ("turned_away", "sound", "standard"),
 }
 failures = []
@@ -87,8 +89,12 @@ def main():
                 output = os.path.join(work, "r" + which)
                 subprocess.run([abut, "run", deck(which), "-o", output, "--quiet", "--profile", profile], capture_output=True, text=True)
                 with open(os.path.join(output, "run.json")) as file:
-                    codes = [f["code"] for f in json.load(file)["run_findings"]]
-                expect((code in codes) == (which == name), f"run {which}: {codes}")
+                    said = {f["code"]: f for f in json.load(file)["run_findings"]}
+                expect((code in said) == (which == name), f"run {which}: {list(said)}")
+                if which == name and code != "contact.energy_made":
+                    where = said[code].get("nodes", []) + said[code].get("segments", [])
+                    expect(where and (len(where) == said[code]["measure"] or code not in ("contact.crossed", "contact.lost_over_border")),
+                           f"{code} names whom it concerns: {said[code]}")
     print(f"{len(BEFORE) + len(DURING)} findings, {len(failures)} failures")
     return 1 if failures else 0
 

@@ -318,7 +318,7 @@ void bind_results(py::module_& m) {
       .def_property_readonly(
           "largest_penetration", [](const NamedResult& r) { return r.result.largest_penetration; }, "length")
       .def_property_readonly(
-          "crossed", [](const NamedResult& r) { return r.result.crossed; }, "nodes caught before they jumped through")
+          "crossed", [](const NamedResult& r) { return r.result.crossed.size(); }, "nodes caught before they jumped through")
       .def("__repr__", [](const NamedResult& r) {
         return "<interface " + std::to_string(r.id) + ": " + std::to_string(r.result.in_contact) + " nodes in contact>";
       });

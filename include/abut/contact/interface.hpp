@@ -103,6 +103,9 @@ class Interface {
   void add_nodal_contact(std::span<NodalContact> nodes) const;
   /// Held nodes in contact now (host indices, each once): boundary-condition release (IBC) asks for it.
   [[nodiscard]] std::span<const Index> nodes_in_contact() const;
+  /// Held nodes of StepResult::crossed and StepResult::lost in the last evaluate (host indices). Empty for both_sides.
+  [[nodiscard]] std::span<const Index> nodes_crossed() const;
+  [[nodiscard]] std::span<const Index> nodes_lost() const;
 
   /// Explicit history (friction anchors, held pairs, energies, previous forces): a host can checkpoint it between commit and search.
   /// With what set_surface() was given it is all that an interface made anew needs to go on with the same bits.

@@ -295,7 +295,10 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   if (options_.step_minimum > 0.0 && options_.step_scale * std::sqrt(smallest) <= options_.step_minimum) gone_[at(node)] = 1;
   result.normal_force -= normal;
   result.tangential_force += pair.friction;
-  result.largest_penetration = std::max(result.largest_penetration, p);
+  if (p > result.largest_penetration) {
+    result.largest_penetration = p;
+    result.deepest_node = held_.nodes()[at(node)];
+  }
   result.largest_approach = std::max(result.largest_approach, -vn * host.dt / options_.gap);
   sums.elastic += law.energy;
   sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * (pair.damping + old.damping));

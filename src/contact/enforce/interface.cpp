@@ -134,6 +134,8 @@ void Interface::add_nodal_contact(std::span<NodalContact> nodes) const {
 }
 
 std::span<const Index> Interface::nodes_in_contact() const { return made_->model->nodes_in_contact(); }
+std::span<const Index> Interface::nodes_crossed() const { return made_->model->nodes_crossed(); }
+std::span<const Index> Interface::nodes_lost() const { return made_->model->nodes_lost(); }
 
 std::vector<std::byte> Interface::history() const { return made_->history(); }
 

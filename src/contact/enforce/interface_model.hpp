@@ -24,6 +24,8 @@ class InterfaceModel {
   virtual void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const = 0;
   virtual void add_nodal_contact(std::span<NodalContact> nodes) const = 0;
   [[nodiscard]] virtual std::span<const Index> nodes_in_contact() const = 0;
+  [[nodiscard]] virtual std::span<const Index> nodes_crossed() const { return {}; }
+  [[nodiscard]] virtual std::span<const Index> nodes_lost() const { return {}; }
   virtual void save(HistoryWriter& out) const = 0;
   virtual void load(HistoryReader& in) = 0;
 };

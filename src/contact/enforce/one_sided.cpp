@@ -199,14 +199,22 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   result.normal_force = total[1].normal - total[0].normal;
   result.tangential_force = total[1].tangential - total[0].tangential;
   result.in_contact = total[0].in_contact + total[1].in_contact;
-  result.crossed = total[0].crossed + total[1].crossed;
-  result.largest_penetration = std::max(total[0].largest_penetration, total[1].largest_penetration);
+  const std::size_t deeper = total[1].largest_penetration > total[0].largest_penetration ? 1 : 0;
+  result.largest_penetration = total[deeper].largest_penetration;
+  result.deepest_node = total[deeper].deepest_node;
   result.largest_approach = std::max(total[0].largest_approach, total[1].largest_approach);
   const std::size_t tighter = total[1].kinematic_step < total[0].kinematic_step ? 1 : 0;
   result.kinematic_step = total[tighter].kinematic_step;
   result.kinematic_node = total[tighter].kinematic_node;
-  in_contact_ = pass_[0].in_contact();
-  if (two_passes_) in_contact_.insert(in_contact_.end(), pass_[1].in_contact().begin(), pass_[1].in_contact().end());
+  const auto join = [this](std::vector<Index>& all, const std::vector<Index>& (Pass::*of)() const) {
+    all.clear();
+    for (const Pass& pass : pass_) all.insert(all.end(), (pass.*of)().begin(), (pass.*of)().end());
+  };
+  join(in_contact_, &Pass::in_contact);
+  join(crossed_, &Pass::crossed);
+  join(lost_, &Pass::lost);
+  result.crossed = static_cast<Index>(crossed_.size());
+  result.lost = static_cast<Index>(lost_.size());
   return result;
 }
 

@@ -23,6 +23,8 @@ class OneSided final : public InterfaceModel {
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
   void add_nodal_contact(std::span<NodalContact> nodes) const override;
   [[nodiscard]] std::span<const Index> nodes_in_contact() const override { return in_contact_; }
+  [[nodiscard]] std::span<const Index> nodes_crossed() const override { return crossed_; }
+  [[nodiscard]] std::span<const Index> nodes_lost() const override { return lost_; }
   void save(HistoryWriter& out) const override;
   void load(HistoryReader& in) override;
 
@@ -33,7 +35,7 @@ class OneSided final : public InterfaceModel {
   std::array<Side, 2> side_;
   std::array<SideLoads, 2> loads_;
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
-  std::vector<Index> in_contact_;
+  std::vector<Index> in_contact_, crossed_, lost_;
   double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0, start_work_ = 0.0, start_step_ = 0.0;
   double initial_elastic_ = 0.0;  ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;

@@ -49,14 +49,16 @@ PassTotals& PassTotals::operator+=(const PassTotals& b) {
   dissipated += b.dissipated;
   damped += b.damped;
   started += b.started;
-  largest_penetration = std::max(largest_penetration, b.largest_penetration);
+  if (b.largest_penetration > largest_penetration) {
+    largest_penetration = b.largest_penetration;
+    deepest_node = b.deepest_node;
+  }
   largest_approach = std::max(largest_approach, b.largest_approach);
   if (b.kinematic_step < kinematic_step) {
     kinematic_step = b.kinematic_step;
     kinematic_node = b.kinematic_node;
   }
   in_contact += b.in_contact;
-  crossed += b.crossed;
   return *this;
 }
 
@@ -158,7 +160,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
   const bool anchors = options_.rules.reference_friction;
   sums.totals = {};
   sums.reactions.clear();
-  sums.in_contact.clear();
+  for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
   sums.equals.clear();
   std::array<Index, at(group)> nodes;
   std::size_t count = 0;
@@ -184,6 +186,7 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
     NodeState& after = next_[at(i)];
     quiet_[at(i)] = awake;
     if (touch.contact) continue;
+    if (touch.lost) sums.lost.push_back(held.nodes()[at(i)]);
     const NodeState& before = state_[at(i)];
     after.held = 0;
     // The last damping force acts over half of the step that ends the contact.
@@ -228,10 +231,12 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
 
   committed_ = false;
   PassTotals totals;
-  in_contact_.clear();
+  for (std::vector<Index>* list : {&in_contact_, &crossed_, &lost_}) list->clear();
   for (const GroupSums& sums : groups_) {
     totals += sums.totals;
     in_contact_.insert(in_contact_.end(), sums.in_contact.begin(), sums.in_contact.end());
+    crossed_.insert(crossed_.end(), sums.crossed.begin(), sums.crossed.end());
+    lost_.insert(lost_.end(), sums.lost.begin(), sums.lost.end());
     for (const Reaction& r : sums.reactions) {
       const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
       for (std::size_t k = 0; k < 4; ++k) {
@@ -251,7 +256,7 @@ PassTotals Pass::rest() {
   committed_ = false;
   PassTotals totals;
   stale_ = true;
-  in_contact_.clear();
+  for (std::vector<Index>* list : {&in_contact_, &crossed_, &lost_}) list->clear();
   for (std::size_t i = 0; i < state_.size(); ++i) {
     const NodeState& before = state_[i];
     next_[i] = before;

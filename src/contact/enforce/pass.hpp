@@ -68,8 +68,8 @@ struct PassTotals {
   double started = 0.0;  ///< work of a growing gap
   double largest_penetration = 0.0, largest_approach = 0.0;
   double kinematic_step = 1e30;
-  Index kinematic_node = no_index;
-  Index in_contact = 0, crossed = 0;
+  Index kinematic_node = no_index, deepest_node = no_index;
+  Index in_contact = 0;
 
   /// Adds those of the next nodes.
   PassTotals& operator+=(const PassTotals& b);
@@ -93,6 +93,9 @@ class Pass {
   void add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const;
   /// Host indices of held nodes with P > 0.
   [[nodiscard]] const std::vector<Index>& in_contact() const { return in_contact_; }
+  /// Those that the swept test caught, those that went over a free border, in the last evaluate.
+  [[nodiscard]] const std::vector<Index>& crossed() const { return crossed_; }
+  [[nodiscard]] const std::vector<Index>& lost() const { return lost_; }
   void save(HistoryWriter& out) const;
   void load(HistoryReader& in);
   /// Forces the next search to rebuild its lists (activity changed).
@@ -106,7 +109,8 @@ class Pass {
     bool contact = false;
     bool fresh_hit = false;
     bool widens = false;
-    bool far = false;  ///< cannot touch now or in the coming step: not measured
+    bool lost = false;  ///< was held, and is now beyond the end of a free border
+    bool far = false;   ///< cannot touch now or in the coming step: not measured
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;
@@ -133,7 +137,7 @@ class Pass {
   struct GroupSums {
     PassTotals totals;
     std::vector<Reaction> reactions;
-    std::vector<Index> in_contact;
+    std::vector<Index> in_contact, crossed, lost;
     std::vector<Equal> equals;
   };
   struct Scene {
@@ -158,14 +162,14 @@ class Pass {
   bool stale_ = true;
   bool started_ = false;
   bool committed_ = false;  ///< state_ is of this step, not next_
-  bool settled_ = false;  ///< initial penetrations are dealt with
-  double keep_ = 1.0;     ///< share of every node's offset that the gradual start leaves in this step
+  bool settled_ = false;    ///< initial penetrations are dealt with
+  double keep_ = 1.0;       ///< share of every node's offset that the gradual start leaves in this step
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
   std::vector<double> depth_;     ///< per facet: how far behind a node is still met
   std::vector<double> widening_;  ///< per facet: 1 / its length at the start
   std::vector<NodeState> state_, next_;
   std::vector<Tracked> tracked_;
-  std::vector<Index> in_contact_;
+  std::vector<Index> in_contact_, crossed_, lost_;
   std::vector<GroupSums> groups_;
   std::vector<std::uint8_t> quiet_;  ///< Quiet of every held node
   std::vector<std::uint8_t> slips_;  ///< of every held node in contact: its friction is at its limit (output only, no history)

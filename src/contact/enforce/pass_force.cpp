@@ -43,13 +43,12 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   path.include(held.x()[at(i)]);
   path.include(held.x()[at(i)] + flight);
   double largest = 0.0;
-  candidates_.near(path, options_.gap + 2.0 * surface_step_,
-                   [&](Index f) {
-                     // The boxes of the lists are as old as the lists: only those of now may count.
-                     Bounds box = facet_bounds(surface.patch(f));
-                     box.inflate(options_.gap + 2.0 * surface_step_);
-                     if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
-                   });
+  candidates_.near(path, options_.gap + 2.0 * surface_step_, [&](Index f) {
+    // The boxes of the lists are as old as the lists: only those of now may count.
+    Bounds box = facet_bounds(surface.patch(f));
+    box.inflate(options_.gap + 2.0 * surface_step_);
+    if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
+  });
   held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
@@ -120,9 +119,12 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     return;
   }
   totals.in_contact += 1;
-  totals.crossed += touch.fresh_hit ? 1 : 0;
-  totals.largest_penetration = std::max(totals.largest_penetration, penetration);
+  if (penetration > totals.largest_penetration) {
+    totals.largest_penetration = penetration;
+    totals.deepest_node = held.nodes()[at(i)];
+  }
   sums.in_contact.push_back(held.nodes()[at(i)]);
+  if (touch.fresh_hit) sums.crossed.push_back(held.nodes()[at(i)]);
 
   const double share = 1.0 / static_cast<double>(touch.equals + 1);
   const bool fresh = before.held == 0;

@@ -89,6 +89,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     take(m);
     gap = gap_of(m.distance, after);
     meets = !m.closest.beyond && gap - m.distance > 0.0;
+    touch.lost = was_held && m.closest.beyond && gap - m.distance > 0.0;
     if (!m.closest.beyond && m.distance >= 0.0) after.ignored = 0;
     if (meets && !was_held && m.distance < 0.0 && !options_.rules.unlimited_depth) {
       const double depth = depth_[at(m.facet)];

@@ -109,11 +109,12 @@ void fields(Io& io, T& v) {
 
 template <class Io, LikeA<StepResult> T>
 void fields(Io& io, T& v) {
-  auto& [elastic, friction, damping, start, made, normal, tangential, in_contact, largest, crossed, approach, step, node] = v;
+  auto& [elastic, friction, damping, start, made, normal, tangential, in_contact, largest, deepest, crossed, lost, approach, step, node] =
+      v;
   for (auto* number : {&elastic, &friction, &damping, &start, &made, &largest, &approach, &step}) io.value(*number);
   io.value(normal);
   io.value(tangential);
-  for (auto* count : {&in_contact, &crossed, &node}) io.value(*count);
+  for (auto* count : {&in_contact, &deepest, &crossed, &lost, &node}) io.value(*count);
 }
 
 }  // namespace abut::contact

@@ -104,8 +104,8 @@ void Recorder::evaluate(const HostState& host, std::span<const Vec3> force, std:
 void Recorder::result(const StepResult& result, std::span<const Vec3> force, std::span<const double> stiffness) {
   payload_.put(load_digest(hosted_, force, stiffness));
   StepResult compact = result;
-  if (compact.kinematic_node != no_index) {
-    compact.kinematic_node = static_cast<Index>(std::lower_bound(hosted_.begin(), hosted_.end(), result.kinematic_node) - hosted_.begin());
+  for (Index* node : {&compact.kinematic_node, &compact.deepest_node}) {
+    if (*node != no_index) *node = static_cast<Index>(std::lower_bound(hosted_.begin(), hosted_.end(), *node) - hosted_.begin());
   }
   FieldWriter out(payload_);
   fields(out, compact);
