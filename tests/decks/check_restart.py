@@ -153,8 +153,12 @@ def kills(case, count):
             else:
                 resumed += 1
             case.expect_same(folder, f"after kill {done}")
+    if resumed == 0:  # on a busy machine all of them may have come before the first checkpoint
+        half_way(case, folder)
+        done, resumed = done + 1, 1
+        expect(case.resume(folder, threads=3).returncode == 0, "a killed run goes on")
+        case.expect_same(folder, "after a kill half-way")
     print(f"{done} kills, {resumed} runs brought to their end with the same bits")
-    return resumed
 
 
 def half_way(case, folder):
