@@ -33,7 +33,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ["README.md", "CONTRIBUTING.md", "examples/README.md"]
-KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "man", "source", "xdg-open", "firefox", "bench/run", "export", "npm"}
+KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "npm", "man", "source", "xdg-open", "firefox", "bench/run", "export"}
 LIMIT = 300  # seconds for one block
 
 
@@ -188,7 +188,6 @@ class Runner:
 def excerpt_differs(text, path):
     if not path.is_file():
         return f"{path.relative_to(ROOT)} does not exist"
-
     def plain(line):
         return re.sub(r"^//+\s*", "", line.strip())
 

@@ -46,6 +46,10 @@ def test_force_of_two_squares():
     np.testing.assert_allclose(normal, force, rtol=1e-12, atol=1e-15)
     np.testing.assert_array_equal(tangential, 0)
     np.testing.assert_allclose(made.nodal_area(x), 0.25)
+    state, opening, penetration = made.nodal_contact(8)
+    assert (state == 2).all()  # without friction every contact slips
+    np.testing.assert_allclose(opening, CLEARANCE - GAP)
+    np.testing.assert_allclose(penetration, GAP - CLEARANCE)
 
 
 def test_forces_are_added_into_the_hosts_arrays():

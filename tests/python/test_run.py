@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import abut
-from support import builder, one_cube, resident_bytes, two_blocks
+from support import STEEL, builder, cube, one_cube, resident_bytes, two_blocks
 
 
 def run_of(**arguments):
@@ -163,6 +163,57 @@ def test_interfaces_and_fields():
         run.node_field("heat")
 
 
+def test_a_checkpoint_goes_on_with_the_same_bits(tmp_path):
+    model = two_blocks().build()
+    run = abut.Run(model, threads=1)
+    run.advance(30)
+    run.save(tmp_path / "here")
+    loaded = abut.Run.load(model, tmp_path / "here", threads=2)
+    assert loaded.cycle == 30 and loaded.state_hash == run.state_hash
+    loaded.advance(30)
+    assert loaded.state_hash == reference_hash(60)
+    np.testing.assert_array_equal(loaded.velocities, loaded.node_field("velocity"))
+    with pytest.raises(abut.RunError):
+        abut.Run.load(two_blocks(friction=0.3).build(), tmp_path / "here")
+    with pytest.raises(abut.RunError):
+        abut.Run.load(model, tmp_path / "not there")
+
+
+def test_a_run_folder_is_resumed(tmp_path):
+    deck = two_blocks().write(tmp_path / "deck")
+    run = abut.Run(abut.Model.read(deck), output=tmp_path / "out", checkpoint_every=10, threads=1)
+    run.advance(45)
+    run.finish()
+    resumed = abut.Run.resume(tmp_path / "out", threads=1)
+    assert 0 < resumed.cycle <= 45
+    resumed.advance_to_end()
+    whole = abut.Run(abut.Model.read(deck), output=tmp_path / "whole", threads=1)
+    whole.advance_to_end()
+    assert resumed.state_hash == whole.state_hash
+    np.testing.assert_array_equal(abut.History.read(tmp_path / "out").values, abut.History.read(tmp_path / "whole").values)
+    with pytest.raises(abut.RunError):
+        abut.Run.resume(tmp_path / "deck")
+
+
+def test_a_gradual_start_pushes_an_overlap_apart_over_its_time():
+    """A cube 0.01 deep in another: at once it is thrown out, gradually the interface puts in work SW and less speed."""
+    def overlap(**settings):
+        b = builder()
+        low, high = b.nodes(cube()), b.nodes(cube((0.0, 0.0, 0.99)))
+        steel, solid = b.elastic(**STEEL), b.solid_property()
+        parts = [b.part(solid, steel, bricks=[ids]) for ids in (low, high)]
+        b.contact(b.surface(parts=parts[:1]), b.surface(parts=parts[1:]))
+        b.fix(low)
+        b.engine(0.02)
+        run = abut.Run(b.build(), threads=1, allow_findings=True, **settings)
+        run.advance_to_end()
+        return run
+
+    at_once, gradual = overlap(), overlap(gradual_starts={1: 0.015})
+    assert at_once.interfaces[0].sw == 0.0 and gradual.interfaces[0].sw > 0.0
+    assert gradual.velocities[8:, 2].mean() < 0.7 * at_once.velocities[8:, 2].mean()
+
+
 def test_finish_closes_the_files(tmp_path):
     run = abut.Run(two_blocks().build(), output=tmp_path)
     run.advance(25)
@@ -250,6 +301,7 @@ def test_a_file_in_the_way_is_a_run_error(tmp_path):
 @pytest.mark.parametrize("arguments, words", [
     (dict(threads=-1), "threads must be 0"),
     (dict(hash_every=-1), "hash_every must be 0"),
+    (dict(checkpoint_every=-1), "checkpoint_every must be 0"),
     (dict(rules="other"), "rules is 'other'"),
 ])
 def test_settings_that_are_refused(arguments, words):

@@ -12,8 +12,8 @@
 `abut.contact` is the contact library on its own, for hosts that integrate by themselves. Guide: docs/guide/python.md.
 """
 from . import _native, contact
-from ._native import (Balance, ContactFinding, Diagnostic, Edit, ElementTable, InputError, Inspection, InterfaceResult, Model, ModelInterface,
-                      ModelSurface, Outcome, Part, Run, RunError, RunFinding, StepController, Units, version)
+from ._native import (Balance, ContactFinding, Diagnostic, Edit, ElementTable, InputError, Inspection, InterfaceResult, Model,
+                      ModelInterface, ModelSurface, Outcome, Part, Run, RunError, RunFinding, StepController, Units, version)
 from .builder import ModelBuilder
 from .history import History
 

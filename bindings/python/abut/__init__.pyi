@@ -1,5 +1,5 @@
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Literal
@@ -244,6 +244,8 @@ class InterfaceResult:
     @property
     def cx(self) -> float: ...
     @property
+    def sw(self) -> float: ...
+    @property
     def in_contact(self) -> int: ...
     @property
     def largest_penetration(self) -> float: ...
@@ -280,11 +282,11 @@ class Edit:
 
 class Run:
     def __init__(self, model: Model, *, threads: int = 0, rules: Rules = "standard", interface_law: Law | None = None,
-                 output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0, hash_every: int = 0,
+                 gradual_starts: Mapping[int, float] = {}, output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0, hash_every: int = 0,
                  record_history: bool = True, progress: bool = False, allow_findings: bool = False) -> None: ...
     @staticmethod
     def load(model: Model, checkpoint: str | os.PathLike[str], *, threads: int = 0, rules: Rules = "standard",
-             interface_law: Law | None = None, output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0,
+             interface_law: Law | None = None, gradual_starts: Mapping[int, float] = {}, output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0,
              hash_every: int = 0, record_history: bool = True, progress: bool = False, allow_findings: bool = False) -> Run: ...
     @staticmethod
     def resume(folder: str | os.PathLike[str], *, deck: str | os.PathLike[str] | None = None, threads: int = 0,

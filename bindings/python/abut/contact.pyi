@@ -41,8 +41,9 @@ class Rules:
 
 class Options:
     def __init__(self, *, stiffness_scale: float = 0.2, friction: float = 0.0, friction_law: FrictionLaw = ..., filter: FrictionFilter = ...,
-                 tangential_ratio: float = 0.1, gap: float = 0.0, birth: float = 0.0, death: float = 1e30, shear_limit: float = 1e30,
-                 damping: float = 0.0, initial: Initial = "keep", depth_limit: float = 0.0, rules: Rules = ...) -> None: ...
+                 tangential_ratio: float = 0.1, gap: float = 0.0, birth: float = 0.0, death: float = 1e30,
+                 start_duration: float = 0.0, shear_limit: float = 1e30, damping: float = 0.0, initial: Initial = "keep",
+                 depth_limit: float = 0.0, rules: Rules = ...) -> None: ...
     stiffness_scale: float
     friction: float
     friction_law: FrictionLaw
@@ -51,6 +52,7 @@ class Options:
     gap: float
     birth: float
     death: float
+    start_duration: float
     shear_limit: float
     damping: float
     initial: Initial
@@ -76,6 +78,8 @@ class StepResult:
     def friction_work(self) -> float: ...
     @property
     def damping_work(self) -> float: ...
+    @property
+    def start_work(self) -> float: ...
     @property
     def made(self) -> float: ...
     @property
@@ -120,6 +124,7 @@ class Interface:
     def step(self, x: ArrayLike, v: ArrayLike, force: NDArray[np.float64], stiffness: NDArray[np.float64], *, dt: float,
              mass: ArrayLike | None = None, time: float = 0.0) -> StepResult: ...
     def nodal_forces(self, node_count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def nodal_contact(self, node_count: int) -> tuple[NDArray[np.int8], NDArray[np.float64], NDArray[np.float64]]: ...
     def nodal_area(self, x: ArrayLike) -> NDArray[np.float64]: ...
     @property
     def nodes_in_contact(self) -> NDArray[np.int32]: ...

@@ -73,7 +73,8 @@ Index to_index(std::int64_t value, const char* name) {
 }
 
 double* writable(const ArrayLike& value, const char* name, py::ssize_t count, bool by_three) {
-  if (!py::isinstance<py::array_t<double>>(value.value)) throw py::type_error(std::string(name) + " is added to: it must be a float64 array");
+  if (!py::isinstance<py::array_t<double>>(value.value))
+    throw py::type_error(std::string(name) + " is added to: it must be a float64 array");
   const auto array = py::reinterpret_borrow<py::array>(value.value);
   check_shape(array, name, count, by_three);
   if ((array.flags() & py::array::c_style) == 0) throw py::type_error(std::string(name) + " is added to: it must be in C order");

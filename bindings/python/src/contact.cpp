@@ -37,7 +37,8 @@ py::array neighbours(const Surface& s) {
 }
 
 void bind_surface(py::module_& m) {
-  py::class_<Surface>(m, "Surface", "Topology of a contact surface: checked once, immutable. Its positive side is given by the right-hand rule.")
+  py::class_<Surface>(m, "Surface",
+                      "Topology of a contact surface: checked once, immutable. Its positive side is given by the right-hand rule.")
       .def(py::init([](const ArrayLike& f, const std::optional<ArrayLike>& node_keys) {
              return Surface(facets(f, "facets"), node_keys ? ids(*node_keys, "node_keys") : std::vector<Id>{});
            }),
@@ -45,9 +46,7 @@ void bind_surface(py::module_& m) {
            "facets: (F, 3) or (F, 4) indices of the host's nodes; in four columns a triangle repeats its third node or ends in -1.\n"
            "node_keys: (N,) ids that order every sum; None: the node's index.\n"
            "Raises ValueError for a facet with fewer than three distinct nodes, or one that appears twice.")
-      .def_property_readonly(
-          "facets", &facet_view,
-          "(F, 4) node indices, a triangle repeats its third; a read-only view")
+      .def_property_readonly("facets", &facet_view, "(F, 4) node indices, a triangle repeats its third; a read-only view")
       .def_property_readonly(
           "nodes", [](const py::object& self) { return view(self.cast<const Surface&>().nodes(), self); },
           "(S,) the host's nodes on this surface, by key; a read-only view")
@@ -203,11 +202,10 @@ void set_threads(HeldInterface& i, int threads) {
   const Work work(i);
   constexpr std::size_t grain = 256;  // nodes that are worth a thread
   auto pool = threads > 1 ? std::make_shared<parallel::ThreadPool>(threads) : nullptr;
-  i.interface.set_executor(pool == nullptr
-                               ? contact::Executor{}
-                               : [pool](std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
-                                   pool->for_ranges(count, grain, [&body](std::size_t begin, std::size_t end) { body(begin, end); });
-                                 });
+  i.interface.set_executor(
+      pool == nullptr ? contact::Executor{} : [pool](std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
+        pool->for_ranges(count, grain, [&body](std::size_t begin, std::size_t end) { body(begin, end); });
+      });
   i.pool = std::move(pool);
 }
 
@@ -221,6 +219,20 @@ py::tuple nodal_forces(const HeldInterface& i, py::ssize_t count) {
   const auto n = zeroed(normal), t = zeroed(tangential);
   i.interface.add_nodal_forces(n, t);
   return py::make_tuple(normal, tangential);
+}
+
+py::tuple nodal_contact(const HeldInterface& i, py::ssize_t count) {
+  if (count < i.nodes_needed) throw py::value_error("node_count must be at least " + std::to_string(i.nodes_needed));
+  std::vector<contact::NodalContact> nodes(static_cast<std::size_t>(count));
+  i.interface.add_nodal_contact(nodes);
+  py::array_t<std::int8_t> states(count);
+  std::vector<double> opening, penetration;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    states.mutable_at(static_cast<py::ssize_t>(n)) = static_cast<std::int8_t>(nodes[n].state);
+    opening.push_back(nodes[n].opening);
+    penetration.push_back(nodes[n].penetration);
+  }
+  return py::make_tuple(states, take(std::move(opening)), take(std::move(penetration)));
 }
 
 py::array nodal_area(const HeldInterface& i, const ArrayLike& x) {
@@ -296,6 +308,10 @@ void bind_interface(py::module_& m) {
       .def("step", &step, "x"_a, "v"_a, "force"_a, "stiffness"_a, py::kw_only(), "dt"_a, "mass"_a = py::none(), "time"_a = 0.0,
            "search, evaluate and commit in one call, for hosts that know their step dt beforehand.")
       .def("nodal_forces", &nodal_forces, "node_count"_a, "Normal and tangential contact force on the host's nodes: two (N, 3) arrays.")
+      .def("nodal_contact", &nodal_contact, "node_count"_a,
+           "What held nodes have to do with the other side, at the positions of the last search: three (N,) arrays.\n\n"
+           "State: 0 apart, 1 stick, 2 slip. Opening: distance less the gap, nan where nothing is near or the node is not held.\n"
+           "Penetration: of a node in contact, else 0.")
       .def("nodal_area", &nodal_area, "x"_a, "(N,) tributary area of the surfaces' nodes at positions x (N, 3).")
       .def_property_readonly(
           "nodes_in_contact", [](const HeldInterface& i) { return copy(i.interface.nodes_in_contact()); },
@@ -303,7 +319,8 @@ void bind_interface(py::module_& m) {
       .def("projections", &projections, "x"_a, py::kw_only(), "move_surface"_a = false,
            "Moves that take initial penetrations away, for the host to apply before it starts: nodes (K,) and moves (K, 3).")
       .def("history", &history, "Friction anchors, held pairs, energies and previous forces as bytes, for a checkpoint.")
-      .def("restore", &restore, "history"_a, "Takes the history of an equal interface. Raises ValueError when it is a foreign or damaged one.");
+      .def("restore", &restore, "history"_a,
+           "Takes the history of an equal interface. Raises ValueError when it is a foreign or damaged one.");
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // Words of the contact library's choices.
 #pragma once
 
+#include "abut/contact/both_sides.hpp"
 #include "abut/contact/inspect.hpp"
 #include "abut/contact/options.hpp"
-#include "abut/contact/both_sides.hpp"
 #include "names.hpp"
 
 namespace abut::python {

@@ -1,10 +1,9 @@
 // Options and results of an interface.
-#include "abut/contact/options.hpp"
-
 #include <algorithm>
 #include <string>
 
 #include "abut/contact/both_sides.hpp"
+#include "abut/contact/options.hpp"
 #include "arrays.hpp"
 #include "contact_names.hpp"
 #include "parts.hpp"
@@ -62,19 +61,28 @@ void bind_friction(py::module_& m) {
 
 void bind_rules(py::module_& m) {
   py::class_<Rules> rules(m, "Rules", "Rules on which the standard and the reference profile differ (docs/guide/profiles.md).");
-  rules.def(py::init([](const std::string& law, const std::string& edges, bool one_pass_half_stiffness, bool triangle_third_node_twice,
-                        bool reference_friction, bool area_ratio_projection, bool switch_correction, bool unlimited_depth, bool limits_step) {
-              return Rules{named(law, "law", laws), named(edges, "edges", edge_rules), one_pass_half_stiffness,
-                           triangle_third_node_twice, reference_friction, area_ratio_projection, switch_correction, unlimited_depth,
-                           limits_step};
-            }),
-            py::kw_only(), "law"_a = "stiffening", "edges"_a = "closest", "one_pass_half_stiffness"_a = false,
-            "triangle_third_node_twice"_a = false, "reference_friction"_a = false, "area_ratio_projection"_a = false,
-            "switch_correction"_a = true, "unlimited_depth"_a = false, "limits_step"_a = true);
+  rules.def(
+      py::init([](const std::string& law, const std::string& edges, bool one_pass_half_stiffness, bool triangle_third_node_twice,
+                  bool reference_friction, bool area_ratio_projection, bool switch_correction, bool unlimited_depth, bool limits_step) {
+        return Rules{named(law, "law", laws),
+                     named(edges, "edges", edge_rules),
+                     one_pass_half_stiffness,
+                     triangle_third_node_twice,
+                     reference_friction,
+                     area_ratio_projection,
+                     switch_correction,
+                     unlimited_depth,
+                     limits_step};
+      }),
+      py::kw_only(), "law"_a = "stiffening", "edges"_a = "closest", "one_pass_half_stiffness"_a = false,
+      "triangle_third_node_twice"_a = false, "reference_friction"_a = false, "area_ratio_projection"_a = false,
+      "switch_correction"_a = true, "unlimited_depth"_a = false, "limits_step"_a = true);
   word_property(rules, "law", &Rules::law, laws, "'stiffening': F = K gap/(gap - P) P; 'constant': F = K P");
-  word_property(rules, "edges", &Rules::edges, edge_rules, "'closest': closest point on faces, edges and corners; 'plain': one normal per facet");
+  word_property(rules, "edges", &Rules::edges, edge_rules,
+                "'closest': closest point on faces, edges and corners; 'plain': one normal per facet");
   rules.def_readwrite("one_pass_half_stiffness", &Rules::one_pass_half_stiffness, "one pass takes half of the facet's stiffness")
-      .def_readwrite("triangle_third_node_twice", &Rules::triangle_third_node_twice, "a triangle's third node counts twice in nodal stiffness")
+      .def_readwrite("triangle_third_node_twice", &Rules::triangle_third_node_twice,
+                     "a triangle's third node counts twice in nodal stiffness")
       .def_readwrite("reference_friction", &Rules::reference_friction, "the reference program's friction anchors instead of return mapping")
       .def_readwrite("area_ratio_projection", &Rules::area_ratio_projection, "projection by area ratios instead of Newton's")
       .def_readwrite("switch_correction", &Rules::switch_correction, "first and last forces of a contact make no energy")
@@ -84,14 +92,15 @@ void bind_rules(py::module_& m) {
       .def_static("reference", &Rules::reference, "The reference program's rules.");
 }
 
-Options one_sided(double stiffness_scale, double friction, const FrictionLaw& law, const FrictionFilter& filter, double tangential_ratio, double gap,
-                  double birth, double death, double shear_limit, double damping, const std::string& initial, double depth_limit,
-                  const Rules& rules) {
+Options one_sided(double stiffness_scale, double friction, const FrictionLaw& law, const FrictionFilter& filter, double tangential_ratio,
+                  double gap, double birth, double death, double start_duration, double shear_limit, double damping,
+                  const std::string& initial, double depth_limit, const Rules& rules) {
   check(stiffness_scale > 0.0, "stiffness_scale", "positive");
   check(friction >= 0.0, "friction", "0 or more");
   check(tangential_ratio > 0.0, "tangential_ratio", "positive");
   check(gap >= 0.0, "gap", "0 or more");
   check(death > birth, "death", "later than birth");
+  check(start_duration >= 0.0, "start_duration", "0 or more");
   check(shear_limit > 0.0, "shear_limit", "positive");
   check(damping >= 0.0 && damping <= 1.0, "damping", "between 0 and 1");
   check(depth_limit >= 0.0, "depth_limit", "0 or more");
@@ -104,6 +113,7 @@ Options one_sided(double stiffness_scale, double friction, const FrictionLaw& la
   o.gap = gap;
   o.birth = birth;
   o.death = death;
+  o.start_duration = start_duration;
   o.shear_limit = shear_limit;
   o.damping = damping;
   o.initial = named(initial, "initial", initials);
@@ -116,7 +126,8 @@ void bind_one_sided(py::module_& m) {
   py::class_<Options> options(m, "Options", "Options of a one-sided interface: two surfaces (TYPE3) or nodes on a surface (TYPE5).");
   options.def(py::init(&one_sided), py::kw_only(), "stiffness_scale"_a = 0.2, "friction"_a = 0.0, "friction_law"_a = FrictionLaw{},
               "filter"_a = FrictionFilter{}, "tangential_ratio"_a = 0.1, "gap"_a = 0.0, "birth"_a = 0.0, "death"_a = 1e30,
-              "shear_limit"_a = 1e30, "damping"_a = 0.0, "initial"_a = "keep", "depth_limit"_a = 0.0, "rules"_a = Rules{});
+              "start_duration"_a = 0.0, "shear_limit"_a = 1e30, "damping"_a = 0.0, "initial"_a = "keep", "depth_limit"_a = 0.0,
+              "rules"_a = Rules{});
   options.def_readwrite("stiffness_scale", &Options::stiffness_scale, "s of K = s K1 K2/(K1 + K2)")
       .def_readwrite("friction", &Options::friction, "Coulomb coefficient")
       .def_readwrite("friction_law", &Options::friction_law, "how the coefficient depends on pressure and speed")
@@ -125,16 +136,18 @@ void bind_one_sided(py::module_& m) {
       .def_readwrite("gap", &Options::gap, "length at which a surface starts to repel")
       .def_readwrite("birth", &Options::birth, "time from which the interface acts")
       .def_readwrite("death", &Options::death, "time after which it does not")
+      .def_readwrite("start_duration", &Options::start_duration, "time over which what overlaps at birth is pushed apart; 0: at once")
       .def_readwrite("shear_limit", &Options::shear_limit, "largest friction stress")
       .def_readwrite("damping", &Options::damping, "normal viscosity, fraction of critical")
-      .def_readwrite("depth_limit", &Options::depth_limit, "how far behind a facet a node is still held when first met, length; 0: from facet size")
+      .def_readwrite("depth_limit", &Options::depth_limit,
+                     "how far behind a facet a node is still held when first met, length; 0: from facet size")
       .def_readwrite("rules", &Options::rules);
   word_property(options, "initial", &Options::initial, initials, "what penetrates at the start: 'keep', 'offset', 'project' or 'ignore'");
 }
 
-BothSides two_sided(double gap, const std::string& stiffness, double stiffness_min, double stiffness_max, double friction, const FrictionLaw& law,
-                    const FrictionFilter& filter, const std::string& friction_form, double damping, double friction_viscosity,
-                    const std::string& initial, double largest_penetration, double birth, double death,
+BothSides two_sided(double gap, const std::string& stiffness, double stiffness_min, double stiffness_max, double friction,
+                    const FrictionLaw& law, const FrictionFilter& filter, const std::string& friction_form, double damping,
+                    double friction_viscosity, const std::string& initial, double largest_penetration, double birth, double death,
                     const std::optional<ArrayLike>& node_gap, const std::optional<ArrayLike>& facet_gap, double gap_max) {
   check(gap > 0.0, "gap", "positive");
   check(friction >= 0.0, "friction", "0 or more");
@@ -178,6 +191,7 @@ void bind_result(py::module_& m) {
       .def_readonly("elastic", &StepResult::elastic, "CE: stored now in normal springs and elastic stick")
       .def_readonly("friction_work", &StepResult::friction_work, "FW: dissipated by slip, never decreases")
       .def_readonly("damping_work", &StepResult::damping_work, "DW")
+      .def_readonly("start_work", &StepResult::start_work, "SW: work that a gradual start has put in")
       .def_readonly("made", &StepResult::made, "CX: energy made (> 0) or lost by the numerics")
       .def_property_readonly(
           "normal_force", [](const StepResult& r) { return copy(r.normal_force); }, "(3,) on the second surface")

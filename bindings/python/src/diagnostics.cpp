@@ -1,10 +1,9 @@
 // Diagnostics, and the exceptions that carry them.
-#include "abut/diagnostic.hpp"
-
 #include <pybind11/stl.h>
 
 #include <string>
 
+#include "abut/diagnostic.hpp"
 #include "diagnostic_names.hpp"
 #include "parts.hpp"
 
@@ -53,7 +52,8 @@ void bind_diagnostics(py::module_& m) {
           "field", [](const Diagnostic& d) { return d.place.field; }, "e.g. 'Gap'")
       .def_property_readonly("columns", &columns, "first and last column of the field, 1-based; None when it has none")
       .def("__str__", [](const Diagnostic& d) { return to_string(d); })
-      .def("__repr__", [](const Diagnostic& d) { return "<" + name_of(d.severity, severities) + " " + d.code + ": " + to_string(d) + ">"; });
+      .def("__repr__",
+           [](const Diagnostic& d) { return "<" + name_of(d.severity, severities) + " " + d.code + ": " + to_string(d) + ">"; });
 
   input_error = make_exception(m, "InputError", PyExc_ValueError,
                                "Input that cannot be used. `diagnostics` lists every finding, str() the errors among them, one a line.");
@@ -61,9 +61,9 @@ void bind_diagnostics(py::module_& m) {
   py::register_exception_translator([](std::exception_ptr p) {
     try {
       if (p) std::rethrow_exception(p);
-    } catch (const InputError& e) {
-      raise_input_error(e);
-    } catch (const RunError& e) { PyErr_SetString(run_error, e.what()); }
+    } catch (const InputError& e) { raise_input_error(e); } catch (const RunError& e) {
+      PyErr_SetString(run_error, e.what());
+    }
   });
 }
 

@@ -103,15 +103,15 @@ Question geometry(const ArrayLike& first, const ArrayLike& second, const ArrayLi
   return q;
 }
 
-py::tuple facing(const ArrayLike& first, const ArrayLike& second, const ArrayLike& x, double gap, const std::optional<ArrayLike>& first_outward,
-                 const std::optional<ArrayLike>& second_outward) {
+py::tuple facing(const ArrayLike& first, const ArrayLike& second, const ArrayLike& x, double gap,
+                 const std::optional<ArrayLike>& first_outward, const std::optional<ArrayLike>& second_outward) {
   const Question q = geometry(first, second, x, gap, first_outward, second_outward);
   const auto both = contact::facing(q.input);
   return py::make_tuple(both[0], both[1]);
 }
 
-py::tuple orient(const ArrayLike& first, const ArrayLike& second, const ArrayLike& x, double gap, const std::optional<ArrayLike>& first_outward,
-                 const std::optional<ArrayLike>& second_outward) {
+py::tuple orient(const ArrayLike& first, const ArrayLike& second, const ArrayLike& x, double gap,
+                 const std::optional<ArrayLike>& first_outward, const std::optional<ArrayLike>& second_outward) {
   const Question q = geometry(first, second, x, gap, first_outward, second_outward);
   const contact::Orientation o = contact::orient(q.input);
   return py::make_tuple(copy(std::span<const Index>(o.flip[0])), copy(std::span<const Index>(o.flip[1])), o.ambiguous);
@@ -145,9 +145,7 @@ void bind_inspection(py::module_& m) {
       .def_readonly("what", &Finding::what, "one sentence: what was found")
       .def_readonly("advice", &Finding::advice, "one sentence: what to do")
       .def_property_readonly("histogram", &histogram, "(B, 3): low, high, count")
-      .def("__repr__", [](const Finding& f) {
-        return "<" + name_of(f.severity, contact_severities) + " " + f.code + ": " + f.what + ">";
-      });
+      .def("__repr__", [](const Finding& f) { return "<" + name_of(f.severity, contact_severities) + " " + f.code + ": " + f.what + ">"; });
 
   const InspectionLimits d;
   py::class_<InspectionLimits>(m, "InspectionLimits", "Beyond these the inspection speaks.")

@@ -67,8 +67,10 @@ void bind_values(py::module_& m) {
 
   py::class_<HeldTable>(m, "ElementTable", "All E elements of one kind, as read-only views.")
       .def_property_readonly("kind", [](const HeldTable& t) { return name_of(t.table.kind, element_kinds); })
-      .def_property_readonly("ids", [](const HeldTable& t) { return view(t.table.id, t.model); }, "(E,) ascending")
-      .def_property_readonly("parts", [](const HeldTable& t) { return view(t.table.part, t.model); }, "(E,) indices into Model.parts")
+      .def_property_readonly(
+          "ids", [](const HeldTable& t) { return view(t.table.id, t.model); }, "(E,) ascending")
+      .def_property_readonly(
+          "parts", [](const HeldTable& t) { return view(t.table.part, t.model); }, "(E,) indices into Model.parts")
       .def_property_readonly(
           "nodes", [](const HeldTable& t) { return view(t.table.node, t.model, std::max(1, t.table.nodes_per_element)); },
           "(E, nodes per element) node indices")
@@ -117,10 +119,14 @@ void bind_inspection_results(py::module_& m) {
       .def_readonly("interface_id", &ContactFinding::interface_id)
       .def_readonly("surface_id", &ContactFinding::surface_id, "0: the interface as a whole, or its node group")
       .def_property_readonly(
-          "severity", [](const ContactFinding& f) { return name_of(f.finding.severity, contact_severities); }, "'note', 'warning' or 'error'")
-      .def_property_readonly("code", [](const ContactFinding& f) { return f.finding.code; }, "docs/findings/index.md has a section for it")
-      .def_property_readonly("what", [](const ContactFinding& f) { return f.finding.what; }, "one sentence: what was found")
-      .def_property_readonly("advice", [](const ContactFinding& f) { return f.finding.advice; }, "one sentence: what to do")
+          "severity", [](const ContactFinding& f) { return name_of(f.finding.severity, contact_severities); },
+          "'note', 'warning' or 'error'")
+      .def_property_readonly(
+          "code", [](const ContactFinding& f) { return f.finding.code; }, "docs/findings/index.md has a section for it")
+      .def_property_readonly(
+          "what", [](const ContactFinding& f) { return f.finding.what; }, "one sentence: what was found")
+      .def_property_readonly(
+          "advice", [](const ContactFinding& f) { return f.finding.advice; }, "one sentence: what to do")
       .def_property_readonly("measure_name", [](const ContactFinding& f) { return f.finding.measure_name; })
       .def_property_readonly("measure", [](const ContactFinding& f) { return f.finding.measure; })
       .def_property_readonly(
@@ -130,7 +136,8 @@ void bind_inspection_results(py::module_& m) {
       .def_readonly("finding", &ContactFinding::finding, "the same in node indices")
       .def("__str__", [](const ContactFinding& f) { return to_string(to_diagnostic(f)); })
       .def("__repr__", [](const ContactFinding& f) {
-        return "<" + name_of(f.finding.severity, contact_severities) + " " + f.finding.code + " of interface " + std::to_string(f.interface_id) + ">";
+        return "<" + name_of(f.finding.severity, contact_severities) + " " + f.finding.code + " of interface " +
+               std::to_string(f.interface_id) + ">";
       });
 
   py::class_<Inspection>(m, "Inspection", "What can be said of a model before it runs.")
@@ -166,7 +173,8 @@ void bind_model(py::module_& m) {
           "path", [](const Model& model) { return model.path().empty() ? std::nullopt : std::optional<Path>(model.path()); },
           "of the Starter deck; None: from text")
       .def_property_readonly(
-          "files", [](const Model& model) { return std::vector<std::string>(model.files().begin(), model.files().end()); }, "decks and includes")
+          "files", [](const Model& model) { return std::vector<std::string>(model.files().begin(), model.files().end()); },
+          "decks and includes")
       .def_property_readonly(
           "findings", [](const Model& model) { return std::vector<Diagnostic>(model.findings().begin(), model.findings().end()); },
           "warnings and notes of reading")
@@ -175,7 +183,8 @@ void bind_model(py::module_& m) {
           "node_ids", [](const py::object& self) { return view(self.cast<const Model&>().node_ids(), self); }, "(N,) ascending")
       .def_property_readonly(
           "coordinates", [](const py::object& self) { return view(self.cast<const Model&>().coordinates(), self); }, "(N, 3) lengths")
-      .def("node_indices", &node_indices, "ids"_a, "Positions of nodes in the order of node_ids. Raises KeyError for an id that there is not.")
+      .def("node_indices", &node_indices, "ids"_a,
+           "Positions of nodes in the order of node_ids. Raises KeyError for an id that there is not.")
       .def(
           "elements",
           [](const py::object& self, const std::string& kind) {
@@ -186,7 +195,8 @@ void bind_model(py::module_& m) {
       .def_property_readonly(
           "parts", [](const Model& model) { return std::vector<PartInfo>(model.parts().begin(), model.parts().end()); }, "by id")
       .def_property_readonly(
-          "surfaces", [](const Model& model) { return std::vector<SurfaceInfo>(model.surfaces().begin(), model.surfaces().end()); }, "by id")
+          "surfaces", [](const Model& model) { return std::vector<SurfaceInfo>(model.surfaces().begin(), model.surfaces().end()); },
+          "by id")
       .def_property_readonly(
           "interfaces", [](const Model& model) { return std::vector<InterfaceInfo>(model.interfaces().begin(), model.interfaces().end()); },
           "by id")

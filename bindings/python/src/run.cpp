@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -117,15 +118,18 @@ bool go_on(const py::object& self, const Limits& limits, const std::optional<py:
 
 using OptionalPath = std::optional<Path>;
 using OptionalWord = std::optional<std::string>;
+using Durations = std::map<Id, double>;
 
-RunSettings settings_of(int threads, const std::string& rules, const OptionalWord& interface_law, const OptionalPath& output,
-                        int checkpoint_every, int hash_every, bool record_history, bool progress, bool allow_findings) {
+RunSettings settings_of(int threads, const std::string& rules, const OptionalWord& interface_law, const Durations& gradual_starts,
+                        const OptionalPath& output, int checkpoint_every, int hash_every, bool record_history, bool progress,
+                        bool allow_findings) {
   if (threads < 0) throw py::value_error("threads must be 0 (all) or more");
   if (hash_every < 0) throw py::value_error("hash_every must be 0 (never) or more");
   if (checkpoint_every < 0) throw py::value_error("checkpoint_every must be 0 (as the deck says) or more");
   RunSettings settings;
   settings.threads = threads;
   settings.choices = choices_of(rules, interface_law);
+  for (const auto& [id, duration] : gradual_starts) settings.choices.gradual_starts.push_back({id, duration});
   settings.output = output.value_or(Path{});
   settings.checkpoint_every = checkpoint_every;
   settings.hash_every = hash_every;
@@ -148,16 +152,18 @@ std::unique_ptr<HeldRun> hold(Settings settings, const Make& make) {
 }
 
 std::unique_ptr<HeldRun> make_run(const Model& model, int threads, const std::string& rules, const OptionalWord& interface_law,
-                                  const OptionalPath& output, int checkpoint_every, int hash_every, bool record_history, bool progress,
-                                  bool allow_findings) {
-  return hold(settings_of(threads, rules, interface_law, output, checkpoint_every, hash_every, record_history, progress, allow_findings),
+                                  const Durations& gradual_starts, const OptionalPath& output, int checkpoint_every, int hash_every,
+                                  bool record_history, bool progress, bool allow_findings) {
+  return hold(settings_of(threads, rules, interface_law, gradual_starts, output, checkpoint_every, hash_every, record_history, progress,
+                          allow_findings),
               [&](const RunSettings& settings) { return std::make_unique<Run>(model, settings); });
 }
 
 std::unique_ptr<HeldRun> load_run(const Model& model, const Path& checkpoint, int threads, const std::string& rules,
-                                  const OptionalWord& interface_law, const OptionalPath& output, int checkpoint_every, int hash_every,
-                                  bool record_history, bool progress, bool allow_findings) {
-  return hold(settings_of(threads, rules, interface_law, output, checkpoint_every, hash_every, record_history, progress, allow_findings),
+                                  const OptionalWord& interface_law, const Durations& gradual_starts, const OptionalPath& output,
+                                  int checkpoint_every, int hash_every, bool record_history, bool progress, bool allow_findings) {
+  return hold(settings_of(threads, rules, interface_law, gradual_starts, output, checkpoint_every, hash_every, record_history, progress,
+                          allow_findings),
               [&](const RunSettings& settings) { return std::make_unique<Run>(Run::load(model, checkpoint, settings)); });
 }
 
@@ -278,25 +284,41 @@ void bind_results(py::module_& m) {
       .def_readonly("largest", &Balance::largest, "largest term so far")
       .def_readonly("err", &Balance::err, "error of the balance over the largest term")
       .def_readonly("ledger", &Balance::ledger, "the same with the discrete works")
-      .def_property_readonly("momentum", [](const Balance& b) { return copy(b.momentum); }, "(3,)")
+      .def_property_readonly(
+          "momentum", [](const Balance& b) { return copy(b.momentum); }, "(3,)")
       .def_readonly("mass", &Balance::mass)
       .def_readonly("added_mass", &Balance::added_mass, "by mass scaling")
       .def("terms", &balance_terms, "The energies as a dict with the names of the time history (IE, HE, ...).")
-      .def("__repr__", [](const Balance& b) { return "Balance(" + py::cast<std::string>(py::repr(balance_terms(b))) + ", err=" + std::to_string(b.err) + ")"; });
+      .def("__repr__", [](const Balance& b) {
+        return "Balance(" + py::cast<std::string>(py::repr(balance_terms(b))) + ", err=" + std::to_string(b.err) + ")";
+      });
 
   py::class_<NamedResult>(m, "InterfaceResult", "Forces of the last cycle, impulses since the start, on the second surface; energies.")
       .def_readonly("id", &NamedResult::id)
-      .def_property_readonly("normal_force", [](const NamedResult& r) { return copy(r.result.normal_force); }, "(3,)")
-      .def_property_readonly("tangential_force", [](const NamedResult& r) { return copy(r.result.tangential_force); }, "(3,)")
-      .def_property_readonly("normal_impulse", [](const NamedResult& r) { return copy(r.result.normal_impulse); }, "(3,) force x time")
-      .def_property_readonly("tangential_impulse", [](const NamedResult& r) { return copy(r.result.tangential_impulse); }, "(3,)")
-      .def_property_readonly("ce", [](const NamedResult& r) { return r.result.ce; }, "energy stored")
-      .def_property_readonly("fw", [](const NamedResult& r) { return r.result.fw; }, "friction work")
-      .def_property_readonly("dw", [](const NamedResult& r) { return r.result.dw; }, "damping work")
-      .def_property_readonly("cx", [](const NamedResult& r) { return r.result.cx; }, "energy made or lost by numerics")
-      .def_property_readonly("in_contact", [](const NamedResult& r) { return r.result.in_contact; }, "held nodes that touch, both passes")
-      .def_property_readonly("largest_penetration", [](const NamedResult& r) { return r.result.largest_penetration; }, "length")
-      .def_property_readonly("crossed", [](const NamedResult& r) { return r.result.crossed; }, "nodes caught before they jumped through")
+      .def_property_readonly(
+          "normal_force", [](const NamedResult& r) { return copy(r.result.normal_force); }, "(3,)")
+      .def_property_readonly(
+          "tangential_force", [](const NamedResult& r) { return copy(r.result.tangential_force); }, "(3,)")
+      .def_property_readonly(
+          "normal_impulse", [](const NamedResult& r) { return copy(r.result.normal_impulse); }, "(3,) force x time")
+      .def_property_readonly(
+          "tangential_impulse", [](const NamedResult& r) { return copy(r.result.tangential_impulse); }, "(3,)")
+      .def_property_readonly(
+          "ce", [](const NamedResult& r) { return r.result.ce; }, "energy stored")
+      .def_property_readonly(
+          "fw", [](const NamedResult& r) { return r.result.fw; }, "friction work")
+      .def_property_readonly(
+          "dw", [](const NamedResult& r) { return r.result.dw; }, "damping work")
+      .def_property_readonly(
+          "cx", [](const NamedResult& r) { return r.result.cx; }, "energy made or lost by numerics")
+      .def_property_readonly(
+          "sw", [](const NamedResult& r) { return r.result.sw; }, "work put in by a gradual start, part of the external work")
+      .def_property_readonly(
+          "in_contact", [](const NamedResult& r) { return r.result.in_contact; }, "held nodes that touch, both passes")
+      .def_property_readonly(
+          "largest_penetration", [](const NamedResult& r) { return r.result.largest_penetration; }, "length")
+      .def_property_readonly(
+          "crossed", [](const NamedResult& r) { return r.result.crossed; }, "nodes caught before they jumped through")
       .def("__repr__", [](const NamedResult& r) {
         return "<interface " + std::to_string(r.id) + ": " + std::to_string(r.result.in_contact) + " nodes in contact>";
       });
@@ -317,11 +339,13 @@ void bind_results(py::module_& m) {
       .def_readonly("cycle", &RunFinding::cycle)
       .def_readonly("measure", &RunFinding::measure)
       .def("__str__", [](const RunFinding& f) { return to_string(f.diagnostic); })
-      .def("__repr__", [](const RunFinding& f) { return "<" + f.diagnostic.code + " of interface " + std::to_string(f.interface_id) + ">"; });
+      .def("__repr__",
+           [](const RunFinding& f) { return "<" + f.diagnostic.code + " of interface " + std::to_string(f.interface_id) + ">"; });
 }
 
 void bind_edit(py::module_& m) {
-  py::class_<Edit>(m, "Edit", "Velocities to be changed inside a `with` block: copies that the run takes over at its end, not after an exception.")
+  py::class_<Edit>(m, "Edit",
+                   "Velocities to be changed inside a `with` block: copies that the run takes over at its end, not after an exception.")
       .def_readwrite("velocities", &Edit::velocities, "(N, 3)")
       .def_readwrite("angular_velocities", &Edit::angular_velocities, "(N, 3) or (0, 3)")
       .def("__enter__",
@@ -338,7 +362,8 @@ template <class Class>
 void bind_going(Class& run) {
   run.def(
          "advance", [](const py::object& self, std::int64_t cycles) { return go_on(self, {.cycles = cycles}, std::nullopt, 1); },
-         "cycles"_a = 1, "Cycles, one if not told. Returns False when the run is over.\n\nRaises RunError when it fails; its files are complete then.")
+         "cycles"_a = 1,
+         "Cycles, one if not told. Returns False when the run is over.\n\nRaises RunError when it fails; its files are complete then.")
       .def(
           "advance_to",
           [](const py::object& self, double time, const std::optional<py::function>& callback, int every) {
@@ -354,8 +379,7 @@ void bind_going(Class& run) {
           [](const py::object& self, const std::optional<py::function>& callback, int every) { return go_on(self, {}, callback, every); },
           "callback"_a = py::none(), py::kw_only(), "every"_a = 1, "Cycles until the end; see advance_to().")
       .def(
-          "finish",
-          [](const HeldRun& self, const std::string& message) { return self.idle().finish(Outcome::Kind::stopped, message); },
+          "finish", [](const HeldRun& self, const std::string& message) { return self.idle().finish(Outcome::Kind::stopped, message); },
           "message"_a = "stopped by the caller", "Ends the run where it is: summary, manifest, files closed. Nothing when it is over.")
       .def(
           "interrupt", [](HeldRun& self) { self.interrupt.store(true); },
@@ -375,15 +399,22 @@ void bind_going(Class& run) {
 template <class Class>
 void bind_state(Class& run) {
   const auto points_of = [&run](const char* name, auto member, const char* doc) {
-    run.def_property_readonly(name, [member](const py::object& self) { return view((run_of(self).*member)(), self); }, doc);
+    run.def_property_readonly(
+        name, [member](const py::object& self) { return view((run_of(self).*member)(), self); }, doc);
   };
   run.def_property_readonly("model", [](const HeldRun& self) { return self.run->model(); })
-      .def_property_readonly("time", [](const HeldRun& self) { return self.idle().time(); }, "t of positions")
-      .def_property_readonly("cycle", [](const HeldRun& self) { return self.idle().cycle(); }, "cycles done")
-      .def_property_readonly("step", [](const HeldRun& self) { return self.idle().step(); }, "the last time step; 0 before the first cycle")
-      .def_property_readonly("force_time", [](const HeldRun& self) { return self.idle().force_time(); }, "t of forces and energies")
-      .def_property_readonly("controller", [](const HeldRun& self) { return self.idle().controller(); }, "who gave the step")
-      .def_property_readonly("state_hash", [](const HeldRun& self) { return self.idle().hash(); }, "over every bit of the state that influences the future");
+      .def_property_readonly(
+          "time", [](const HeldRun& self) { return self.idle().time(); }, "t of positions")
+      .def_property_readonly(
+          "cycle", [](const HeldRun& self) { return self.idle().cycle(); }, "cycles done")
+      .def_property_readonly(
+          "step", [](const HeldRun& self) { return self.idle().step(); }, "the last time step; 0 before the first cycle")
+      .def_property_readonly(
+          "force_time", [](const HeldRun& self) { return self.idle().force_time(); }, "t of forces and energies")
+      .def_property_readonly(
+          "controller", [](const HeldRun& self) { return self.idle().controller(); }, "who gave the step")
+      .def_property_readonly(
+          "state_hash", [](const HeldRun& self) { return self.idle().hash(); }, "over every bit of the state that influences the future");
   points_of("positions", &Run::positions, "(N, 3) lengths at `time`; a read-only view");
   points_of("displacements", &Run::displacements, "(N, 3) lengths; a read-only view");
   points_of("accelerations", &Run::accelerations, "(N, 3) a read-only view");
@@ -393,7 +424,8 @@ void bind_state(Class& run) {
                    "(N, 3) half a step before `time`; read-only, assign to change all of them, or use edit().\n\n"
                    "The energy that a change brings is booked as external work. Nodes whose motion is imposed, and secondary nodes of\n"
                    "rigid bodies, take no notice.")
-      .def_property("angular_velocities", &angular_velocities, &set_angular_velocities, "(N, 3) rate; as velocities. Empty in models without rotations.")
+      .def_property("angular_velocities", &angular_velocities, &set_angular_velocities,
+                    "(N, 3) rate; as velocities. Empty in models without rotations.")
       .def(
           "edit", [](const py::object& self) { return Edit{self}; },
           "`with run.edit() as e: e.velocities[nodes] = v` changes velocities (and angular_velocities) before the next cycle.");
@@ -401,9 +433,11 @@ void bind_state(Class& run) {
 
 template <class Class>
 void bind_answers(Class& run) {
-  run.def_property_readonly("balance", [](const HeldRun& self) { return self.idle().balance(); }, "energies at `force_time`")
+  run.def_property_readonly(
+         "balance", [](const HeldRun& self) { return self.idle().balance(); }, "energies at `force_time`")
       .def_property_readonly("interfaces", &interface_results, "results in the order of Model.interfaces")
-      .def("node_field", &node_field, "name"_a, "A field of the animation at every node: (N,) or (N, components). Raises ValueError for another name.")
+      .def("node_field", &node_field, "name"_a,
+           "A field of the animation at every node: (N,) or (N, components). Raises ValueError for another name.")
       .def("element_field", &element_field, "kind"_a, "name"_a,
            "The same for all elements of one kind: (E,) or (E, components); nan for deleted elements.")
       .def_static("node_field_names", &Run::node_field_names)
@@ -455,23 +489,25 @@ void bind_run(py::module_& m) {
       "and elements those of `force_time`, the start of the last cycle. Views show the present state: copy what is to be kept. Used\n"
       "with `with`, the run is finished, and its files complete, at the end of the block.");
   run.def(py::init(&make_run), "model"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard", "interface_law"_a = py::none(),
-          "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0, "record_history"_a = true, "progress"_a = false,
-          "allow_findings"_a = false,
+          "gradual_starts"_a = Durations{}, "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0,
+          "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false,
           "Inspects the contacts, makes the first state, opens the files.\n\n"
           "threads: 0 for all. rules: 'standard' or 'reference'. interface_law: 'stiffening', 'constant' or None for the rule set's.\n"
+          "gradual_starts: {interface id: time over which initial penetrations are pushed out}.\n"
           "output: run folder; None: no files. checkpoint_every: cycles between checkpoints in it, 0: as /RFILE of the deck says.\n"
           "hash_every: cycles between state hashes in run.json. allow_findings: run although the inspection found errors.\n"
           "Raises InputError when it did, RunError when a file cannot be written.")
       .def_static("load", &load_run, "model"_a, "checkpoint"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard",
-                  "interface_law"_a = py::none(), "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0,
-                  "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false,
+                  "interface_law"_a = py::none(), "gradual_starts"_a = Durations{}, "output"_a = py::none(), "checkpoint_every"_a = 0,
+                  "hash_every"_a = 0, "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false,
                   "A run of `model` that begins in the state of a checkpoint of save(); arguments as of Run().\n\n"
                   "Raises RunError when the checkpoint is not one of this model and these choices.")
-      .def_static("resume", &resume_run, "folder"_a, py::kw_only(), "deck"_a = py::none(), "threads"_a = 0, "checkpoint_every"_a = py::none(),
-                  "record_history"_a = true, "progress"_a = false,
-                  "Goes on from the newest whole checkpoint of a run folder, with its files: the same bits as if it had never stopped.\n\n"
-                  "folder: run folder or a checkpoint file in it. deck: Starter deck, None: where it was. checkpoint_every: None: as before.\n"
-                  "Raises RunError when there is no usable checkpoint, or it is of another model, version or deck; InputError of the deck.")
+      .def_static(
+          "resume", &resume_run, "folder"_a, py::kw_only(), "deck"_a = py::none(), "threads"_a = 0, "checkpoint_every"_a = py::none(),
+          "record_history"_a = true, "progress"_a = false,
+          "Goes on from the newest whole checkpoint of a run folder, with its files: the same bits as if it had never stopped.\n\n"
+          "folder: run folder or a checkpoint file in it. deck: Starter deck, None: where it was. checkpoint_every: None: as before.\n"
+          "Raises RunError when there is no usable checkpoint, or it is of another model, version or deck; InputError of the deck.")
       .def("save", &save_run, "checkpoint"_a,
            "Writes a checkpoint: the whole state, in a file that is complete or not there. Raises RunError when it cannot be written.");
   bind_going(run);
@@ -479,7 +515,8 @@ void bind_run(py::module_& m) {
   bind_answers(run);
   run.def("__repr__", [](const HeldRun& self) {
     if (self.going) return std::string("<run that goes on in another thread>");
-    return "<run of '" + self.run->model().name() + "' at cycle " + std::to_string(self.run->cycle()) + ", time " + std::to_string(self.run->time()) + ">";
+    return "<run of '" + self.run->model().name() + "' at cycle " + std::to_string(self.run->cycle()) + ", time " +
+           std::to_string(self.run->time()) + ">";
   });
 }
 

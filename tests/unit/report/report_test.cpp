@@ -25,9 +25,10 @@ class ReportTest : public ::testing::Test {
     output::RunInfo info;
     info.version = "test";
     info.contact = findings_;
-    const auto sinks = output::open_run_outputs(output::RunFolder{folder_.path(), "scene"}, info, {});
+    output::SinkSet sinks;
+    output::add_run_outputs(sinks, output::RunFolder{folder_.path(), "scene"}, info, {});
     scene_.state.times.t = 0.0;
-    sinks->begin(scene_.snapshot());
+    sinks.begin(scene_.snapshot());
     for (std::size_t k = 0; k < times.size(); ++k) {
       scene_.state.times.t = times[k];
       scene_.state.times.cycle = 10 * static_cast<std::int64_t>(k);
@@ -35,9 +36,9 @@ class ReportTest : public ::testing::Test {
       cycle::Snapshot s = scene_.snapshot();
       s.animation_due = s.history_due = true;
       s.controller = {cycle::StepController::Kind::brick, 41};
-      sinks->cycle(s);
+      sinks.cycle(s);
     }
-    sinks->end({});
+    sinks.end({});
   }
   void write(Fields fields = Fields::automatic) {
     written_ = write_report(folder_.path(), file(), page, fields);
@@ -171,8 +172,8 @@ TEST_F(ReportTest, TheHistoryHasEveryColumnAndTheController) {
 TEST_F(ReportTest, ContactSurfacesAreThereWithTheirSides) {
   scene_.model.surfaces.emplace_back().id = 70;
   scene_.model.surfaces.emplace_back().id = 71;
-  scene_.model.surfaces[0].segments.push_back({.nodes = {0, 1, 2, 3}});
-  scene_.model.surfaces[1].segments.push_back({.nodes = {8, 9, 10, 10}});
+  scene_.model.surfaces[0].segments.push_back({{0, 1, 2, 3}, {}});
+  scene_.model.surfaces[1].segments.push_back({{8, 9, 10, 10}, {}});
   scene_.model.interfaces[0].type = model::InterfaceType3{.surface_1 = 0, .surface_2 = 1};
   scene_.model.interfaces[1].type = model::InterfaceType5{.nodes = {}, .surface = 1};
   run({0.0});
