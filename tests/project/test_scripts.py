@@ -186,6 +186,33 @@ class StatementTable(unittest.TestCase):
             self.assertEqual(set(found), {7, 9, 13, 16, 17, 18})
 
 
+class DocumentationCode(unittest.TestCase):
+    def setUp(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import check_docs_code
+        self.module = check_docs_code
+
+    def test_blocks_with_their_directives(self):
+        text = "<!-- code: fails -->\n```sh\nfalse\n```\n\n    indented\n\n- list\n\n    of it\n"
+        found = [(block.language, block.directive, block.line) for block in self.module.blocks_of("p.md", text)]
+        self.assertEqual(found, [("sh", "fails", 2), ("indented", "", 6)])
+
+    def test_output_is_compared(self):
+        differs = self.module.output_differs
+        self.assertIsNone(differs("a   1...3\n...\nend", "a 12x3\nb\nc\nend\n"))
+        self.assertIsNotNone(differs("a 1", "a 2"))
+        self.assertIsNotNone(differs("a", "a\nb"))
+        self.assertIsNotNone(differs("a\nb", "a"))
+
+    def test_excerpts_keep_their_order(self):
+        with tempfile.TemporaryDirectory(dir=ROOT / "tests") as folder:
+            path = Path(folder) / "source"
+            path.write_text("// one\n  two\nthree\nfour\n")
+            self.assertIsNone(self.module.excerpt_differs("one\ntwo\n...\nfour", path))
+            self.assertIsNotNone(self.module.excerpt_differs("one\nfour", path))
+            self.assertIsNotNone(self.module.excerpt_differs("two\none", path))
+
+
 class PublicHeaders(Tree):
     def test_a_header_that_needs_another(self):
         self.assertEqual(run("scripts/check_public_headers.py", "c++", self.root)[0], 0)
