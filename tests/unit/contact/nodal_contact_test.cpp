@@ -17,8 +17,8 @@ constexpr double gap = 0.1;
 /// A 3 x 3 patch at height `z` over a larger plane, normals face to face.
 struct Patches {
   Host host;
-  Interface interface;
   std::size_t first_of_upper = 0;
+  Interface interface;  // made last: it sets first_of_upper
 
   static Interface make(Host& host, double z, double friction, std::size_t& first_of_upper) {
     const auto lower = grid(host, 6, 6, 0.0, 6.0, 0.0, 6.0, flat);
