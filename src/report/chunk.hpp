@@ -14,19 +14,20 @@ namespace abut::report {
 
 /// One array: what the page needs to read it, and its text. An array whose components are constant has no text.
 struct Chunk {
-  std::string kind;         ///< "q16", "u32", "f32", "u8"
-  std::size_t count = 0;    ///< values per component
+  std::string kind;       ///< "q16", "u32", "f32", "u8"
+  std::size_t count = 0;  ///< values per component
   int components = 1;
-  std::vector<double> low;  ///< q16: value of quantum 0, per component
-  std::vector<double> high; ///< q16: value of quantum 65534
-  std::string text;         ///< base64
+  std::vector<double> low;   ///< q16: value of quantum 0, per component
+  std::vector<double> high;  ///< q16: value of quantum 65534
+  std::string text;          ///< base64
 };
 
 /// Value of a q16 chunk that stands for "no value" (NaN).
 inline constexpr std::uint16_t no_value = 65535;
 
-/// 16 bits per value between the smallest and the largest finite value of each component; |error| <= (high - low)/131068 with `low` and `high` of the chunk.
-/// Where both signs occur the ends move outward by up to a quantum so that 0 is hit exactly. Values that are not finite become `no_value`.
+/// 16 bits per value between the smallest and the largest finite value of each component; |error| <= (high - low)/131068 with `low` and
+/// `high` of the chunk. Where both signs occur the ends move outward by up to a quantum so that 0 is hit exactly. Values that are not
+/// finite become `no_value`.
 /// @param values  #count * components, interleaved (x y z x y z ...)
 [[nodiscard]] Chunk quantised(std::span<const float> values, int components);
 /// @param values  #count * components, interleaved

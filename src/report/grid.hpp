@@ -47,7 +47,7 @@ struct Grid {
 /// Contact surfaces of a run (NAME_contact.vtu): segments by node, in the order of interface, side.
 struct ContactSurface {
   Id interface = 0, surface = 0;
-  int side = 1;                                 ///< 1 first, 2 second surface of the card
+  int side = 1;                                ///< 1 first, 2 second surface of the card
   std::vector<std::array<Index, 4>> segments;  ///< a triangle repeats its third node
 };
 /// Empty when there is no such file. @throws RunError when it cannot be read

@@ -23,7 +23,7 @@ struct Shown {
   std::string name;
   bool on_nodes = true;
   int components = 1;
-  std::string source;                                    ///< field of the animation
+  std::string source;                                      ///< field of the animation
   std::function<void(const float* from, float* to)> make;  ///< one value; none: as it is
 };
 
@@ -272,7 +272,8 @@ Written add_states(const std::vector<StateFile>& states, const std::filesystem::
   double highest = -1.0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const Grid grid = k == 0 ? first : read_grid(states[k].file);
-    if (grid.points.size() != first.points.size()) throw RunError(states[k].file.string() + ": another number of nodes than the first state");
+    if (grid.points.size() != first.points.size())
+      throw RunError(states[k].file.string() + ": another number of nodes than the first state");
     const std::vector<Index> place = places(first.cells, grid.cells);
     std::vector<Index> cells;
     for (const Index c : mesh.cells) cells.push_back(place[at(c)]);

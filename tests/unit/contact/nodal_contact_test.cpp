@@ -17,13 +17,14 @@ constexpr double gap = 0.1;
 /// A 3 x 3 patch at height `z` over a larger plane, normals face to face.
 struct Patches {
   Host host;
-  Interface interface;
   std::size_t first_of_upper = 0;
+  Interface interface;  // made last: it sets first_of_upper
 
   static Interface make(Host& host, double z, double friction, std::size_t& first_of_upper) {
     const auto lower = grid(host, 6, 6, 0.0, 6.0, 0.0, 6.0, flat);
     first_of_upper = host.x.size();
-    const auto upper = grid(host, 2, 2, 1.3, 3.3, 1.4, 3.4, [z](double, double) { return z; }, false);
+    const auto upper = grid(
+        host, 2, 2, 1.3, 3.3, 1.4, 3.4, [z](double, double) { return z; }, false);
     Options options;
     options.gap = gap;
     options.friction = friction;

@@ -147,8 +147,8 @@ TEST_F(ReportTest, DeletedElementsDisappearAndWhatIsBehindThemIsSeen) {
     EXPECT_EQ(hidden[f], 1u);
   }
   EXPECT_EQ(of_wedge, 5);
-  EXPECT_TRUE(std::isnan(values_of(1, "von_mises")[static_cast<std::size_t>(
-      std::find(element_id.begin(), element_id.end(), 42u) - element_id.begin())]));
+  EXPECT_TRUE(std::isnan(
+      values_of(1, "von_mises")[static_cast<std::size_t>(std::find(element_id.begin(), element_id.end(), 42u) - element_id.begin())]));
 }
 
 TEST_F(ReportTest, TheHistoryHasEveryColumnAndTheController) {
@@ -161,7 +161,8 @@ TEST_F(ReportTest, TheHistoryHasEveryColumnAndTheController) {
     const auto at = std::find(names.begin(), names.end(), name) - names.begin();
     const Json& about = document_["history"]["columns"][static_cast<std::size_t>(at)];
     std::vector<float> out;
-    for (const std::uint32_t word : test::read_integers("f32", about["count"], 1, chunk_text(about))) out.push_back(std::bit_cast<float>(word));
+    for (const std::uint32_t word : test::read_integers("f32", about["count"], 1, chunk_text(about)))
+      out.push_back(std::bit_cast<float>(word));
     return out;
   };
   EXPECT_EQ(column("time"), (std::vector<float>{0.0f, 0.25f, 0.5f}));
