@@ -172,7 +172,7 @@ Answer press(const Spheres& c, const std::string& csv) {
   const Sweep lower = body(scene, c, c.lower, false, parts);
   const Sweep upper = body(scene, c, c.upper, true, parts);
   const double unit = 4.0 * c.fine / std::sqrt(c.young / c.density);
-  const double time = 14.0 * unit;
+  const double time = 20.0 * unit;
   const Index function = scenes::ramp(scene, time);
   const double force = hertz_force(c, c.approach);
   for (const Sweep* s : {&lower, &upper}) {
