@@ -217,9 +217,7 @@ TEST(PressFitFull, MeshesThatDoNotMatchConverge) {
     c.release = 20.0;
     const Answer a = fit(c);
     const double error = a.pressure / 100.0 - 1.0;
-    if (before > 0.0) {
-      EXPECT_LT(error, 0.35 * before);
-    }
+    if (before > 0.0) { EXPECT_LT(error, 0.35 * before); }
     before = error;
   }
 }
