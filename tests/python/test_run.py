@@ -196,13 +196,14 @@ def test_a_run_folder_is_resumed(tmp_path):
 
 
 def test_a_gradual_start_pushes_an_overlap_apart_over_its_time():
-    """A cube 0.01 deep in another: at once it is thrown out, gradually the interface puts in work SW and less speed."""
+    """A cube 0.02 deep in another's gap: at once it is thrown out, gradually the interface puts in work SW and less speed."""
     def overlap(**settings):
         b = builder()
-        low, high = b.nodes(cube()), b.nodes(cube((0.0, 0.0, 0.99)))
+        low, high = b.nodes(cube()), b.nodes(cube((0.0, 0.0, 1.03)))
         steel, solid = b.elastic(**STEEL), b.solid_property()
-        parts = [b.part(solid, steel, bricks=[ids]) for ids in (low, high)]
-        b.contact(b.surface(parts=parts[:1]), b.surface(parts=parts[1:]))
+        for ids in (low, high):
+            b.part(solid, steel, bricks=[ids])
+        b.contact(b.surface(low[[[4, 5, 6, 7]]]), b.surface(high[[[3, 2, 1, 0]]]), gap=0.05)
         b.fix(low)
         b.engine(0.02)
         run = abut.Run(b.build(), threads=1, allow_findings=True, **settings)
