@@ -4,13 +4,18 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import cards
-from ._native import Model
 from .cards import integers, real, reals
+
+if TYPE_CHECKING:
+    from . import Model
+else:
+    from ._native import Model
 
 _FAMILIES = {"shells": ("SHELL", 4), "triangles": ("SH3N", 3), "bricks": ("BRICK", 8), "tetras": ("TETRA4", 4)}
 _HISTORY = {"nodes": "NODE", "parts": "PART", "shells": "SHEL", "triangles": "SH3N", "bricks": "BRIC", "interfaces": "INTER",

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 class History(Mapping[str, NDArray[np.float64]]):
-    """Columns of a time history by name, e.g. history["GLOBAL/KE"]: (R,) arrays, views of `values`.
+    """Columns of a time history by name, e.g. history["GLOBAL/KE"]: (R,) arrays, views of `table`.
 
     Names and units are those of NAME_th.csv (docs/guide/outputs.md). The first column is "time".
     """
@@ -37,7 +37,7 @@ class History(Mapping[str, NDArray[np.float64]]):
             file = found[0]
         with file.open(newline="", encoding="utf-8") as stream:
             rows = csv.reader(stream)
-            names = next(rows, [])
+            names: list[str] = next(rows, [])
             values = [[float(value) for value in row] for row in rows if len(row) == len(names)]
         return History(names, np.array(values, dtype=np.float64).reshape(len(values), len(names)))
 
@@ -47,7 +47,7 @@ class History(Mapping[str, NDArray[np.float64]]):
         return list(self._names)
 
     @property
-    def values(self) -> NDArray[np.float64]:
+    def table(self) -> NDArray[np.float64]:
         """(R, C) the whole table."""
         return self._values
 
