@@ -152,7 +152,7 @@ void Run::Impl::keep_checkpoint() {
                  {},
                  fmt::format("at time {:.6g} (cycle {}): no checkpoint was written: {}", cycle->state().times.t, cycle->state().times.cycle,
                              error.what())};
-    info.during->push_back({std::move(d), 0, cycle->state().times.t, cycle->state().times.cycle, 0.0});
+    info.during->push_back({std::move(d), 0, cycle->state().times.t, cycle->state().times.cycle, 0.0, {}, {}});
   }
 }
 
@@ -267,7 +267,7 @@ Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted
                  "run.previous_checkpoint",
                  {candidates.newest.string(), 0, {}, {}, 0, 0},
                  fmt::format("{}; the run goes on from the checkpoint before it, of cycle {}", damage, impl->cycle->state().times.cycle)};
-    impl->info.during->push_back({std::move(d), 0, impl->cycle->state().times.t, impl->cycle->state().times.cycle, 0.0});
+    impl->info.during->push_back({std::move(d), 0, impl->cycle->state().times.t, impl->cycle->state().times.cycle, 0.0, {}, {}});
     return Run(std::move(impl));
   } catch (const state::ArchiveError& error) {
     refuse(place, fmt::format("{}: {}; {}: {}", candidates.newest.filename().string(), damage, candidates.previous.filename().string(),
