@@ -166,8 +166,8 @@ TEST_F(TimeHistoryTest, PartVariables) {
 }
 
 TEST_F(TimeHistoryTest, EveryInterfaceHasForcesImpulsesAndEnergiesAlsoWhenNoGroupNamesIt) {
-  scene_.interfaces[0] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, 13, 14, 15, 16, 17};
-  scene_.interfaces[1] = {{-1, -2, -3}, {-4, -5, -6}, {-7, -8, -9}, {-10, -11, -12}, -13, -14, -15, -16, 18};
+  scene_.interfaces[0] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, 13, 14, 15, 16, 0, 17, 0, no_index, {}, {}};
+  scene_.interfaces[1] = {{-1, -2, -3}, {-4, -5, -6}, {-7, -8, -9}, {-10, -11, -12}, -13, -14, -15, -16, 0, 18, 0, no_index, {}, {}};
   scene_.model.th_requests.push_back(request(model::ThKind::inter, 3, 0, {"FNX", "FTZ", "CE_ELAST"}));
   const auto r = row();
   EXPECT_EQ(r.at("INTER/3/FNX"), 1);
