@@ -163,7 +163,7 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
   // V^(-1/3) by a third-order iteration from the last value; the volume changes little in a step.
   R y = state.get(f_inverse_length);
   if (!c.small_strain) {
-    for (int i = 0; i < 2; ++i) {  // a change of volume by 1 % leaves an error of 1e-17
+    for (int i = 0; i < 3; ++i) {
       const R e = one - in.volume * y * y * y;
       y = y + y * e * (R(1.0 / 3.0) + R(2.0 / 9.0) * e);
     }
