@@ -92,11 +92,11 @@ double counted_bytes(const abut::model::Model& model) {
     bytes += 2.0 * 8.0 * static_cast<double>(group->chunks().sum_count());
   }
   const double vector = 24.0, scalar = 8.0;
-  double per_node = 2 * vector;                           // elements: x, v
-  per_node += scalar + 2 * vector + scalar;               // assembly: mass; internal force, acceleration, stiffness
-  per_node += 2 * scalar;                                 // step: mass, stiffness
-  per_node += 3 * vector + scalar;                        // balance: v, a, internal force; mass
-  per_node += 7 * vector;                                 // integration: a; v, x, u read and written
+  double per_node = 2 * vector;                                               // elements: x, v
+  per_node += scalar + 2 * vector + scalar;                                   // assembly: mass; internal force, acceleration, stiffness
+  per_node += 2 * scalar;                                                     // step: mass, stiffness
+  per_node += 3 * vector + scalar;                                            // balance: v, a, internal force; mass
+  per_node += 7 * vector;                                                     // integration: a; v, x, u read and written
   if (shells) per_node += 7 * vector + 3 * scalar + 3 * vector + 4 * scalar;  // the same for rotations, which have no position
   return bytes + per_node * static_cast<double>(model.node_count());
 }
@@ -124,7 +124,8 @@ int main(int argc, char** argv) {
   const abut::bench::CycleTimes times(cycle, most);
   const double elements = cycle.element_count(), cycles = static_cast<double>(times.cycles());
   const double per_element = 1e9 / elements;
-  std::printf("{\"elements\": %.0f, \"cycles\": %.0f, \"init_s\": %.4f, \"init_cpu_s\": %.4f", elements, cycles, init, cpu_init - cpu_before);
+  std::printf("{\"elements\": %.0f, \"cycles\": %.0f, \"init_s\": %.4f, \"init_cpu_s\": %.4f", elements, cycles, init,
+              cpu_init - cpu_before);
   std::printf(", \"bytes_per_element\": %.0f, \"peak_bytes_per_element\": %.0f", (memory("VmRSS") - before) / elements,
               (std::max(after_init, memory("VmHWM")) - before) / elements);
   std::printf(", \"counted_bytes\": %.1f", counted_bytes(scene.model) / elements);

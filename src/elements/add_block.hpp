@@ -13,9 +13,7 @@ namespace abut::elements {
 
 namespace add_block_detail {
 
-ABUT_INLINE void add(double* sum, simd::VectorOf<4>::real value) {
-  simd::store<4>(sum, simd::load<4>(sum) + simd::Pack<4>(value));
-}
+ABUT_INLINE void add(double* sum, simd::VectorOf<4>::real value) { simd::store<4>(sum, simd::load<4>(sum) + simd::Pack<4>(value)); }
 
 /// Four components of lanes l to l + 3 whose sums begin at sums + position * components.
 template <int components>

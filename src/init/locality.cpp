@@ -37,9 +37,9 @@ void halve(std::span<Point> points) {
   std::size_t unit = elements::lanes;
   while (unit < largest_chunk && 4 * unit <= points.size()) unit *= 2;
   const std::size_t half = (points.size() / 2 + unit - 1) / unit * unit;
-  std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half), points.end(), [axis](const Point& a, const Point& b) {
-    return a.x[axis] != b.x[axis] ? a.x[axis] < b.x[axis] : a.element < b.element;
-  });
+  std::nth_element(
+      points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half), points.end(),
+      [axis](const Point& a, const Point& b) { return a.x[axis] != b.x[axis] ? a.x[axis] < b.x[axis] : a.element < b.element; });
   halve(points.first(half));
   halve(points.subspan(half));
 }

@@ -54,7 +54,7 @@ struct ShellSection {
   double shear_factor = 0.0;  ///< kappa_s; 0 for N = 1
   bool bending = true;        ///< false for N = 1
   bool thickness_changes = false;
-  bool step_wanted = true;  ///< GroupInput
+  bool step_wanted = true;        ///< GroupInput
   double membrane_damping = 0.0;  ///< 1.414 dm rho c; 0 = none
   double zeta[max_thickness_points] = {}, weight[max_thickness_points] = {}, moment_weight[max_thickness_points] = {};
 

@@ -26,8 +26,8 @@
 // shear. Left out: stress (geometric) stiffness, of relative size stress/E.
 //
 // Nodal stiffness: K_I = k_e m_I/2 with k_e = k + 2 c/h_ref, so that h <= sqrt(2 m/K) at every node implies the condition above
-// for the sum (h^2 k_e m_I/4 summed over elements <= m_I, while h >= h_ref). h_ref is half of the last step: the step may halve from one cycle
-// to the next without leaving the bound.
+// for the sum (h^2 k_e m_I/4 summed over elements <= m_I, while h >= h_ref). h_ref is half of the last step: the step may halve from one
+// cycle to the next without leaving the bound.
 #pragma once
 
 #include "elements/shell_common/section.hpp"
@@ -67,7 +67,8 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
   T k;
   if (q.ishell >= 3) {
     const T z2 = g.z2 * g.z2;
-    const T coupling = sqrt((gamma2 + z2 * inverse_inertia) * (gamma2 + four * z2 * p_max * inverse_mass * (inverse_area * inverse_area))) * hg.membrane;
+    const T coupling =
+        sqrt((gamma2 + z2 * inverse_inertia) * (gamma2 + four * z2 * p_max * inverse_mass * (inverse_area * inverse_area))) * hg.membrane;
     k = max(membrane, out_of_plane) + coupling;
   } else {
     k = max(membrane + hg.membrane * gamma2, out_of_plane);

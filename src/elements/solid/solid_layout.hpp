@@ -48,7 +48,7 @@ struct SolidConfig {
   bool literal_spin = false;  ///< TETRA4: spin with the reference's second-order terms
   double step_scale = 0.9, step_minimum = 0.0;
   bool remove_small_step = false;
-  bool step_wanted = true;  ///< GroupInput
+  bool step_wanted = true;                                                                 ///< GroupInput
   int fields = common_fields;                                                              ///< per block
   int law_field = 0, force_field = 0, frozen_field = 0, frame_field = 0, share_field = 0;  ///< first optional field of each kind
 };
