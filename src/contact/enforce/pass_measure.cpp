@@ -89,7 +89,6 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     take(m);
     gap = gap_of(m.distance, after);
     meets = !m.closest.beyond && gap - m.distance > 0.0;
-    touch.lost = was_held && m.closest.beyond && gap - m.distance > 0.0;
     if (!m.closest.beyond && m.distance >= 0.0) after.ignored = 0;
     if (meets && !was_held && m.distance < 0.0 && !options_.rules.unlimited_depth) {
       const double depth = depth_[at(m.facet)];
@@ -120,6 +119,8 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   if (!was_held) touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_;
   touch.pair = force_of(held, surface, m, i, gap, touch.widens);
   touch.contact = meets && touch.pair.magnitude > 0.0;
+  // Still behind the gap, but where the strip of a free border has faded to nothing.
+  touch.lost = was_held && touch.penetration > 0.0 && after.ignored == 0 && touch.pair.stiffness <= 0.0;
   if (touch.contact) share_among_equals(held, surface, m, i, strip, touch, sums);
 }
 
