@@ -9,7 +9,8 @@ Standard library only.
 """
 import math
 import sys
-from pathlib import Path
+
+import generated
 
 WIDTH, HEIGHT = 260, 110
 BLUE, RED, GREY, DARK = "#2b6cb0", "#c05621", "#8a8f98", "#1a202c"
@@ -259,23 +260,14 @@ DRAWINGS = [shared_nodes, degenerate_facets, duplicate_facets, normals_away, nor
 
 
 def main():
-    arguments = sys.argv[1:]
-    check = arguments[:1] == ["--check"]
-    if len(arguments) != 1 + check:
-        print(__doc__)
-        return 2
-    folder, faults = Path(arguments[-1]), 0
+    folder, check = generated.arguments(__doc__)
+    faults = 0
     page = (folder / "index.md").read_text(encoding="utf-8")
     for draw in DRAWINGS:
         picture = Picture()
         draw(picture)
         code, path = "contact." + draw.__name__, folder / (draw.__name__ + ".svg")
-        text = picture.svg(code)
-        if not check:
-            path.write_text(text, encoding="utf-8")
-        elif not path.is_file() or path.read_text(encoding="utf-8") != text:
-            faults += 1
-            print(f"{path} is not what tools/draw_findings.py draws")
+        faults += generated.write_or_check(path, picture.svg(code), check)
         if f"### {code}\n" not in page or f"]({path.name})" not in page:
             faults += 1
             print(f"{folder / 'index.md'} has no section with a picture for {code}")

@@ -8,7 +8,8 @@ The decks are part of the repository, so that they can be read and run without t
 """
 import math
 import sys
-from pathlib import Path
+
+import generated
 
 STEEL = dict(title="steel", density=7800.0, young=210e9, poisson=0.3)
 ALUMINIUM = dict(title="aluminium", density=2700.0, young=70e9, poisson=0.33)
@@ -157,6 +158,25 @@ class Deck:
         return {f"{self.name}_0000.rad": "\n".join(self.lines + ["/END"]) + "\n", f"{self.name}_0001.rad": "\n".join(engine) + "\n"}
 
 
+def steel_over_aluminium(deck, mesh, table, plate):
+    """Materials, properties, nodes and parts of a plate that falls on a clamped one."""
+    deck.elastic(1, **STEEL)
+    deck.elastic(2, **ALUMINIUM)
+    deck.shell_property(1, "steel plate", 0.002, 3)
+    deck.shell_property(2, "aluminium plate", 0.004, 3)
+    deck.nodes(mesh)
+    deck.part(1, "clamped plate", "SHELL", 2, 2, table)
+    deck.part(2, "falling plate", "SHELL", 1, 1, plate)
+
+
+def clamp_and_drop(deck, table_nodes, plate_nodes):
+    """The lower plate's border is held; the upper one falls with 6 m/s, and 1 m/s sideways."""
+    deck.node_group(1, "clamped border", border(table_nodes))
+    deck.clamp(1, "clamp", 1, rotations=True)
+    deck.node_group(2, "falling plate", flat(plate_nodes))
+    deck.velocity(1, "fall", (1.0, 0.0, -6.0), 2)
+
+
 def plate_drop(name="plate_drop", table_cells=16, plate_cells=11, end=1e-3, frames=25):
     """Meshes that do not match, shells of different stiffness and thickness, friction: the everyday case of TYPE3."""
     gap = 0.002
@@ -174,19 +194,10 @@ def plate_drop(name="plate_drop", table_cells=16, plate_cells=11, end=1e-3, fram
     deck = Deck(name, "steel plate dropped on a clamped aluminium plate",
                 ["A steel plate (0.12 m, 2 mm, turned by 20 degrees) falls with 6 m/s, and 1 m/s sideways, on an aluminium plate",
                  "(0.24 m, 4 mm) that is clamped at its border. TYPE3 contact with a gap of 2 mm and friction 0.1."])
-    deck.elastic(1, **STEEL)
-    deck.elastic(2, **ALUMINIUM)
-    deck.shell_property(1, "steel plate", 0.002, 3)
-    deck.shell_property(2, "aluminium plate", 0.004, 3)
-    deck.nodes(mesh)
-    deck.part(1, "clamped plate", "SHELL", 2, 2, table)
-    deck.part(2, "falling plate", "SHELL", 1, 1, plate)
+    steel_over_aluminium(deck, mesh, table, plate)
     deck.surface_of_part(1, "clamped plate, normals up", 1)
     deck.surface_of_part(2, "falling plate, normals down", 2)
-    deck.node_group(1, "clamped border", border(table_nodes))
-    deck.clamp(1, "clamp", 1, rotations=True)
-    deck.node_group(2, "falling plate", flat(plate_nodes))
-    deck.velocity(1, "fall", (1.0, 0.0, -6.0), 2)
+    clamp_and_drop(deck, table_nodes, plate_nodes)
     deck.contact(1, "plate on plate", 1, 2, friction=0.1, gap=gap)
     deck.history(1, "PART", [1, 2])
     deck.history(2, "INTER", [1])
@@ -324,19 +335,10 @@ def dropped(name, title, story, add_contact):
     table, table_nodes = mesh.plate(lambda u, w: (side * (u - 0.5), side * (w - 0.5), 0.0), 8, 8)
     plate, plate_nodes = mesh.plate(lambda u, w: (edge * (u - 0.45), edge * (w - 0.55), 1.05 * gap), 5, 5)
     deck = Deck(name, title, story)
-    deck.elastic(1, **STEEL)
-    deck.elastic(2, **ALUMINIUM)
-    deck.shell_property(1, "steel plate", 0.002, 3)
-    deck.shell_property(2, "aluminium plate", 0.004, 3)
-    deck.nodes(mesh)
-    deck.part(1, "clamped plate", "SHELL", 2, 2, table)
-    deck.part(2, "falling plate", "SHELL", 1, 1, plate)
+    steel_over_aluminium(deck, mesh, table, plate)
     deck.surface_of_part(1, "clamped plate", 1)
     deck.surface_of_part(2, "falling plate", 2)
-    deck.node_group(1, "clamped border", border(table_nodes))
-    deck.clamp(1, "clamp", 1, rotations=True)
-    deck.node_group(2, "falling plate", flat(plate_nodes))
-    deck.velocity(1, "fall", (1.0, 0.0, -6.0), 2)
+    clamp_and_drop(deck, table_nodes, plate_nodes)
     add_contact(deck, gap)
     deck.history(1, "PART", [1, 2])
     deck.history(2, "INTER", [1])
@@ -360,24 +362,9 @@ EXAMPLES = {"plate_drop": plate_drop, "block_on_block": block_on_block, "slope":
 
 
 def main():
-    arguments = sys.argv[1:]
-    check = arguments[:1] == ["--check"]
-    if len(arguments) != 1 + check:
-        print(__doc__)
-        return 2
-    folder, different = Path(arguments[-1]), 0
-    for name, make in EXAMPLES.items():
-        for file, text in make().items():
-            path = folder / name / file
-            if check:
-                same = path.is_file() and path.read_text(encoding="utf-8") == text
-                different += not same
-                if not same:
-                    print(f"{path} is not what tools/make_examples.py writes")
-            else:
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_text(text, encoding="utf-8")
-                print(path)
+    folder, check = generated.arguments(__doc__)
+    different = sum(generated.write_or_check(folder / name / file, text, check)
+                    for name, make in EXAMPLES.items() for file, text in make().items())
     return 1 if different else 0
 
 

@@ -8,8 +8,8 @@ Every deck is two square steel plates over each other (kg, m, s); tests/decks/ch
 and which other deck is its twin. Standard library only.
 """
 import sys
-from pathlib import Path
 
+import generated
 from make_examples import STEEL, Deck, Mesh, flat, integers, quads, reals
 
 SIDE, DISTANCE, GAP = 0.1, 1e-3, 9e-4
@@ -101,21 +101,9 @@ DECKS = {
 
 
 def main():
-    arguments = sys.argv[1:]
-    check = arguments[:1] == ["--check"]
-    if len(arguments) != 1 + check:
-        print(__doc__)
-        return 2
-    folder, different = Path(arguments[-1]), 0
-    for name, options in DECKS.items():
-        for file, text in plates(name, **options).items():
-            path = folder / name / file
-            if not check:
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_text(text, encoding="utf-8")
-            elif not path.is_file() or path.read_text(encoding="utf-8") != text:
-                different += 1
-                print(f"{path} is not what tools/make_finding_decks.py writes")
+    folder, check = generated.arguments(__doc__)
+    different = sum(generated.write_or_check(folder / name / file, text, check)
+                    for name, options in DECKS.items() for file, text in plates(name, **options).items())
     return 1 if different else 0
 
 

@@ -15,12 +15,7 @@ Model build(const deck::DeckPair& deck, Diagnostics& diagnostics, int run) {
   c.diagnostics = &diagnostics;
   read_control(c);
   check_keywords(c);
-  read_mesh(c);
-  read_sets(c);
-  read_sensors(c);
-  read_conditions(c);
-  read_interfaces(c);
-  read_outputs(c);
+  read_entities(c);
   if (deck.has_engine) {
     read_engine(c, deck.engine, 1);
     for (int n = 2; n <= run; ++n) read_engine(c, deck.restarts[static_cast<std::size_t>(n) - 2], n);

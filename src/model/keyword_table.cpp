@@ -61,12 +61,7 @@ std::pair<std::vector<FieldUse>, Diagnostics> read_probe(const std::vector<std::
   read_control(c);
   if (words.front() == "BEGIN") return found;
   std::erase_if(found.first, [](const FieldUse& use) { return use.name == "Invers"; });  // of the probe's own /BEGIN
-  read_mesh(c);
-  read_sets(c);
-  read_sensors(c);
-  read_conditions(c);
-  read_interfaces(c);
-  read_outputs(c);
+  read_entities(c);
   return found;
 }
 

@@ -127,6 +127,15 @@ void read_sensors(Context& c);     ///< /SENSOR
 void read_conditions(Context& c);  ///< /BCS, /INIVEL, /IMP*, /CLOAD, /PLOAD, /GRAV, /ADMAS, /RBODY, /RWALL
 void read_interfaces(Context& c);  ///< /INTER
 void read_outputs(Context& c);     ///< /TH, /SECT, /ACCEL
+/// All of them but read_control, in the order in which one refers to another.
+inline void read_entities(Context& c) {
+  read_mesh(c);
+  read_sets(c);
+  read_sensors(c);
+  read_conditions(c);
+  read_interfaces(c);
+  read_outputs(c);
+}
 void read_engine(Context& c, const deck::Deck& engine, int run);  ///< Engine deck of a run -> changes of Model::controls
 void check_keywords(Context& c);  ///< keywords nobody took: refused when they can change physics, else listed as skipped
 [[nodiscard]] bool is_refused(const deck::Block& block);  ///< check_keywords refuses this block: readers pass over it

@@ -31,6 +31,7 @@ export class App {
   readonly state: State;
   picture: Picture | undefined;
   private plots: PlotPanel | undefined;
+  private themeChosen = false;
   private readonly canvas = h("canvas", {
     class: "canvas",
     tabindex: "0",
@@ -74,7 +75,7 @@ export class App {
   }
 
   async start(): Promise<void> {
-    this.applyTheme(undefined);
+    this.followTheme();
     this.build();
     if (this.hasPicture) {
       this.picture = await Picture.make(this.canvas, this.document, this.store, this.state);
@@ -536,17 +537,25 @@ export class App {
 
   // ---- theme, keys, help -------------------------------------------------------------------------------------------
 
-  private applyTheme(theme: "dark" | "light" | undefined): void {
-    const root = document.documentElement;
-    if (theme) root.dataset["theme"] = theme;
-    else window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.rethemed());
+  /// The system's theme, as long as the user has not chosen one.
+  private followTheme(): void {
+    const system = window.matchMedia("(prefers-color-scheme: dark)");
+    this.setTheme(system.matches);
+    system.addEventListener("change", () => {
+      if (this.themeChosen) return;
+      this.setTheme(system.matches);
+      this.rethemed();
+    });
+  }
+  private setTheme(dark: boolean): void {
+    document.documentElement.dataset["theme"] = dark ? "dark" : "light";
   }
   get dark(): boolean {
-    const chosen = document.documentElement.dataset["theme"];
-    return chosen ? chosen === "dark" : window.matchMedia("(prefers-color-scheme: dark)").matches;
+    return document.documentElement.dataset["theme"] === "dark";
   }
   toggleTheme(): void {
-    this.applyTheme(this.dark ? "light" : "dark");
+    this.themeChosen = true;
+    this.setTheme(!this.dark);
     this.rethemed();
   }
   private rethemed(): void {
