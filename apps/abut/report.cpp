@@ -6,14 +6,16 @@
 #include "commands.hpp"
 #include "viewer_page.hpp"
 
+#ifndef ABUT_VIEWER_ABSENT
+#define ABUT_VIEWER_ABSENT "the page is empty"
+#endif
+
 namespace abut::app {
 
 int report_command(const ReportArguments& arguments) {
   const std::string_view page = viewer_page();
   if (page.empty()) {
-    fmt::print(stderr,
-               "abut: this abut was built without the report, because Node.js and npm were not there (docs/guide/report.md says how to "
-               "build it)\n");
+    fmt::print(stderr, "abut: this abut was built without the report: " ABUT_VIEWER_ABSENT "; docs/guide/report.md says how to build it\n");
     return 1;
   }
   std::filesystem::path target = arguments.output;

@@ -5,7 +5,7 @@
 
 namespace abut::app {
 
-/// Empty when the build had no Node.js.
+/// Empty when the build could not bundle it; ABUT_VIEWER_ABSENT then says why.
 [[nodiscard]] std::string_view viewer_page();
 
 }  // namespace abut::app

@@ -170,6 +170,7 @@ contact::BothSidesOptions both_sides_options(const model::Model& model, const mo
   o.birth = window_of(model, card).birth;
   o.death = window_of(model, card).death;
   o.reference_step = profile.reference_contact;
+  o.switch_correction = !profile.reference_contact;
   o.all_pieces = profile.reference_contact;
   const model::Controls& control = model.controls;
   o.step_minimum = t7.dt_min;

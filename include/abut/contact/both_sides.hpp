@@ -41,6 +41,9 @@ struct BothSidesOptions {
   /// What dampers hand to the nodal sum: c/h as the reference program, or 2 c/h and the friction spring too, which keeps two free
   /// bodies stable (forces at t^n are made of speeds at n - 1/2: h <= 2/lambda(C)).
   bool reference_step = false;
+  /// In the cycles in which a pair starts and ends: a force that makes no energy by switching, and a step that is short already when
+  /// it touches (docs/theory/contact.md, 7a); false: the law's own force in every cycle.
+  bool switch_correction = true;
 
   /// Geometry of quadrilaterals: false, the nearest of their four triangles (the force is the gradient of the stored energy); true, the
   /// reference program's weighted mean over the triangles within reach, with its hourglass-free distribution.

@@ -5,15 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contact/enforce/coefficient.hpp"
 #include "contact/enforce/history.hpp"
 
 namespace abut::contact {
 
 namespace {
 
-/// A node whose gap is used up to this share of the gap leaves for good: its force has no finite value any more.
-constexpr double exhausted = 1e-10;
 /// Placement of initial penetrations, a hair beyond what is there (numerics.md 7.7.1).
 constexpr double hair = 1.0 + 1e-8;
 
@@ -198,114 +195,6 @@ double BothSides::offset_of(const Pair& old, double gap, double p) const {
   return std::min(old.offset, 0.95 * old.offset + 0.05 * (p + margin));
 }
 
-Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, const Vec3& normal, const Vec3& v, double vn,
-                            double pressing, double critical, Sums& sums, bool& slips) const {
-  const Vec3 vt = v - vn * normal;
-  const double speed = norm(vt);
-  const double pressure = std::abs(pressing) / surface_.facet_area(pair.facet);
-  const double limit = friction_coefficient(options_.friction_law, options_.friction, pressure, speed) * std::abs(pressing);
-  const double a = options_.filter.weight(host.dt_bar_old);
-  if (options_.friction_form == BothSidesOptions::Friction::viscous) {
-    Vec3 force{};
-    slips = options_.friction_viscosity * critical * speed > limit;
-    if (speed > 0.0) force = (std::min(limit, options_.friction_viscosity * critical * speed) / speed) * vt;
-    if (options_.filter.acts()) force = a * force + (1.0 - a) * old.friction;
-    sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction));
-    return force;
-  }
-  pair.spring = a * pair_stiffness(pair.node, pair.facet);
-  Vec3 force = old.friction + (pair.spring * host.dt_bar_old) * v;
-  force -= dot(force, normal) * normal;
-  const double size = norm(force);
-  slips = size > limit;
-  if (slips) force = (limit / size) * force;
-  if (pair.spring > 0.0) {
-    const double stored = 0.5 * squared_norm(force) / pair.spring;
-    const double stored_before = old.spring > 0.0 ? 0.5 * squared_norm(old.friction) / old.spring : 0.0;
-    sums.elastic += stored;
-    if (slips) sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction) - (stored - stored_before));
-  }
-  return force;
-}
-
-bool BothSides::add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
-                         Sums& sums) {
-  const auto& corner = surface_.surface().local()[at(facet)];
-  const bool triangle = surface_.surface().facets()[at(facet)].is_triangle();
-  const std::size_t corners = triangle ? 3 : 4;
-  const Met met = meet(held_, surface_, node, facet, pair_gap(node, facet));
-  const BothSidesContact& c = met.contact;
-  const double k = pair_stiffness(node, facet);
-  if (c.penetration <= 0.0) return false;
-  if (met.gap - c.penetration < exhausted * met.gap) {
-    gone_[at(node)] = 1;
-    return false;
-  }
-  Pair pair{node, facet, offset_of(old, met.gap, c.penetration), {}};
-  const double p = c.penetration - pair.offset;
-  const double gap = met.gap - pair.offset;
-  if (p <= 0.0 || k <= 0.0) {
-    pairs_.push_back(pair);
-    return false;
-  }
-  const auto host_of = [this](Index own) { return at(own_[at(own)]); };
-  const std::size_t self = host_of(held_own_[at(node)]);
-  Vec3 v = host.v[self];
-  for (std::size_t i = 0; i < corners; ++i) v -= c.weight[i] * host.v[host_of(surface_own_[at(corner[i])])];
-  const double vn = dot(v, c.normal);
-  if (vn < 0.0) {
-    const double step = 0.5 * (gap - p) / -vn;
-    if (options_.step_minimum > 0.0 && step <= options_.step_minimum) {
-      gone_[at(node)] = 1;
-      return false;
-    }
-    if (step < result.kinematic_step) {
-      result.kinematic_step = step;
-      result.kinematic_node = held_.nodes()[at(node)];
-    }
-  }
-
-  const double mass = mass_of(host, self);
-  const BothSidesForce law = both_sides_force(0.5 * k, gap, p, mass, vn, options_.damping);
-  pair.damping = -law.damping * vn;
-  const double pressing = law.elastic + pair.damping;
-  bool slips = true;
-  if (options_.rubs()) pair.friction = friction_of(host, old, pair, c.normal, v, vn, pressing, law.critical, sums, slips);
-  if (slips) slips_[at(node)] = 1;
-
-  const Vec3 normal = pressing * c.normal;
-  const std::array<double, 4> share = triangle || !options_.all_pieces ? c.weight : without_hourglass(c.weight);
-  const Index own = held_own_[at(node)];
-  normal_[at(own)] += normal;
-  tangential_[at(own)] -= pair.friction;
-  const double inverse_h = (options_.reference_step ? 1.0 : 2.0) * (host.dt > 0.0 ? 1.0 / host.dt : 0.0);
-  const double viscous = options_.rubs() ? options_.friction_viscosity * law.critical * inverse_h : 0.0;
-  double tangent = std::max(law.tangent + law.damping * inverse_h, viscous);
-  if (!options_.reference_step) tangent = std::max(tangent, pair.spring);
-  stiffness[self] += tangent;
-  double smallest = mass > 0.0 ? 2.0 * mass / tangent : 1e30;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const Index to = surface_own_[at(corner[i])];
-    normal_[at(to)] -= share[i] * normal;
-    tangential_[at(to)] += share[i] * pair.friction;
-    stiffness[host_of(to)] += share[i] * tangent;
-    const double m = mass_of(host, host_of(to));
-    if (share[i] > 0.0 && m > 0.0) smallest = std::min(smallest, 2.0 * m / (share[i] * tangent));
-  }
-  if (options_.step_minimum > 0.0 && options_.step_scale * std::sqrt(smallest) <= options_.step_minimum) gone_[at(node)] = 1;
-  result.normal_force -= normal;
-  result.tangential_force += pair.friction;
-  if (p > result.largest_penetration) {
-    result.largest_penetration = p;
-    result.deepest_node = held_.nodes()[at(node)];
-  }
-  result.largest_approach = std::max(result.largest_approach, -vn * host.dt / options_.gap);
-  sums.elastic += law.energy;
-  sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * (pair.damping + old.damping));
-  pairs_.push_back(pair);
-  return true;
-}
-
 StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   StepResult result;
   in_contact_.clear();
@@ -320,6 +209,8 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   if (acts(host)) {
     std::swap(pairs_, previous_);
     pairs_.clear();
+    fastest_ = fastest(host);
+    longest_step_ = std::max(longest_step_, host.dt);
     std::size_t next = 0;
     for (Index node = 0; node < held_.node_count(); ++node) {
       if (gone_[at(node)] != 0 || !held_.node_active(node)) continue;
@@ -336,12 +227,15 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
       if (touches) in_contact_.push_back(held_.nodes()[at(node)]);
     }
     while (next < previous_.size()) let_go(previous_[next++]);
-    speed_limit(host, result);
+    // No node may cross the gap in one step, near or far (numerics.md 2.5, third term).
+    if (fastest_ > 0.0) result.kinematic_step = std::min(result.kinematic_step, 0.9 * narrowest_ / fastest_);
   } else {
     // Outside of the time window nothing acts; what initial penetrations take from the gap stays for a later birth.
     for (Pair& pair : pairs_) {
       let_go(pair);
-      pair = {pair.node, pair.facet, pair.offset, {}};
+      Pair asleep{pair.node, pair.facet};
+      asleep.offset = pair.offset;
+      pair = asleep;
     }
   }
   if (!started_) initial_elastic_ = sums.elastic;
@@ -356,32 +250,6 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   result.made = contact_work_ + (sums.elastic - initial_elastic_) + friction_work_ + damping_work_;
   result.in_contact = static_cast<Index>(in_contact_.size());
   return result;
-}
-
-/// No node may cross the gap in one step, near or far (numerics.md 2.5, third term).
-void BothSides::speed_limit(const HostState& host, StepResult& result) const {
-  constexpr double big = 1e300;
-  Vec3 held_low{big, big, big}, held_high{-big, -big, -big}, low = held_low, high = held_high;
-  for (Index i = 0; i < held_.node_count(); ++i) {
-    if (gone_[at(i)] != 0) continue;
-    const Vec3& v = host.v[at(held_.nodes()[at(i)])];
-    for (int k = 0; k < 3; ++k) {
-      held_low[k] = std::min(held_low[k], v[k]);
-      held_high[k] = std::max(held_high[k], v[k]);
-    }
-  }
-  for (const Index n : surface_.nodes()) {
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], host.v[at(n)][k]);
-      high[k] = std::max(high[k], host.v[at(n)][k]);
-    }
-  }
-  Vec3 speed;
-  for (int k = 0; k < 3; ++k) speed[k] = std::max({held_high[k] - low[k], high[k] - held_low[k], 0.0});
-  const double size = norm(speed);
-  if (!(size > 0.0) || size > big) return;
-  const double step = 0.9 * narrowest_ / size;
-  if (step < result.kinematic_step) result.kinematic_step = step;
 }
 
 double BothSides::discrete_work(const HostState& host) {
@@ -442,6 +310,7 @@ void BothSides::save(HistoryWriter& out) const {
   out.put(initial_elastic_);
   out.put(friction_work_);
   out.put(damping_work_);
+  out.put(longest_step_);
   out.put(contact_work_);
 }
 
@@ -456,6 +325,7 @@ void BothSides::load(HistoryReader& in) {
   in.get(initial_elastic_);
   in.get(friction_work_);
   in.get(damping_work_);
+  in.get(longest_step_);
   in.get(contact_work_);
 }
 

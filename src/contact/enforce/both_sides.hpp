@@ -32,9 +32,20 @@ class BothSides final : public InterfaceModel {
   struct Pair {
     Index node = no_index, facet = no_index;
     double offset = 0.0;   ///< p_0
-    Vec3 friction;         ///< F
+    Vec3 friction{};       ///< F
     double damping = 0.0;  ///< damping force along the normal
     double spring = 0.0;   ///< tangential stiffness of the incremental form
+    double rate = 0.0;     ///< normal speed, and
+    double acceleration = 0.0;  ///< what the pair's own normal force gave it
+    std::int64_t acts = 0;      ///< 1: p > 0 in the last cycle
+  };
+  struct Motion {
+    Vec3 velocity;              ///< of the node relative to the facet's point under it
+    double rate = 0.0;          ///< its part along the normal, > 0 opening
+    double inverse_mass = 0.0;  ///< 0 where the host gives no masses
+  };
+  struct Spring {
+    double force, stored;
   };
   /// Geometry of a pair with its full gap.
   struct Met {
@@ -60,10 +71,16 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] double pair_gap(Index node, Index facet) const;
   [[nodiscard]] double reach(Index node) const;
   [[nodiscard]] bool acts(const HostState& host) const { return host.time >= options_.birth && host.time <= options_.death; }
+  [[nodiscard]] Motion motion(const HostState& host, Index node, Index facet, const BothSidesContact& c) const;
+  [[nodiscard]] Spring spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Motion& m,
+                              const BothSidesForce& law) const;
+  [[nodiscard]] double lasting_tangent(double k0, double gap, double p, const Motion& m) const;
   bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                 Sums& sums);
   [[nodiscard]] double offset_of(const Pair& old, double gap, double penetration) const;
-  void speed_limit(const HostState& host, StepResult& result) const;
+  void foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness,
+               Sums& sums) const;
+  [[nodiscard]] double fastest(const HostState& host) const;
   [[nodiscard]] double discrete_work(const HostState& host);
 
   BothSidesOptions options_;
@@ -78,6 +95,8 @@ class BothSides final : public InterfaceModel {
   std::vector<Index> in_contact_, scratch_;
   std::vector<std::uint8_t> off_;          // #F: without stiffness for good (drop_facets)
   double widest_ = 0.0, narrowest_ = 0.0;  // largest gap of a facet; smallest gap of any pair
+  double longest_step_ = 0.0;  // so far
+  double fastest_ = 0.0;  // bound of the speed of any node relative to any facet in this cycle
   bool started_ = false, stale_ = true;
   double initial_elastic_ = 0.0;
   double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0;

@@ -92,7 +92,8 @@ template <class Io, LikeA<BothSidesOptions> T>
 void fields(Io& io, T& v) {
   using O = BothSidesOptions;
   auto& [gap, node_gap, facet_gap, gap_max, node_size, facet_size, stiffness, stiffness_min, stiffness_max, friction, friction_law, filter,
-         form, damping, viscosity, initial, penetration, birth, death, step_minimum, step_scale, reference_step, all_pieces] = v;
+         form, damping, viscosity, initial, penetration, birth, death, step_minimum, step_scale, reference_step, switch_correction,
+         all_pieces] = v;
   for (auto* number : {&gap, &gap_max, &stiffness_min, &stiffness_max, &friction, &damping, &viscosity, &penetration, &birth, &death,
                        &step_minimum, &step_scale}) {
     io.value(*number);
@@ -104,6 +105,7 @@ void fields(Io& io, T& v) {
   io.choice(form, O::Friction::incremental);
   io.choice(initial, O::Initial::drop_facets);
   io.flag(reference_step);
+  io.flag(switch_correction);
   io.flag(all_pieces);
 }
 

@@ -1,0 +1,225 @@
+// Forces of a pair that repels on both sides (TYPE7), and what it hands to the nodal sums of stiffness.
+//
+// Equation contract: both_sides_pair.hpp for the law and the damper, switching.hpp for the cycles in which a pair starts and ends.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/enforce/both_sides.hpp"
+#include "contact/enforce/both_sides_pair.hpp"
+#include "contact/enforce/coefficient.hpp"
+#include "contact/enforce/switching.hpp"
+
+namespace abut::contact {
+
+namespace {
+
+/// A node whose gap is used up to this share of the gap leaves for good: its force has no finite value any more.
+constexpr double exhausted = 1e-10;
+
+}  // namespace
+
+/// How the node moves relative to the facet's point under it, with the pair's inverse mass 1/m_s + sum H_k^2/m_k.
+BothSides::Motion BothSides::motion(const HostState& host, Index node, Index facet, const BothSidesContact& c) const {
+  const auto& corner = surface_.surface().local()[at(facet)];
+  const auto host_of = [this](Index own) { return at(own_[at(own)]); };
+  const auto inverse = [&](std::size_t n) { return mass_of(host, n) > 0.0 ? 1.0 / mass_of(host, n) : 0.0; };
+  Motion m;
+  const std::size_t self = host_of(held_own_[at(node)]);
+  m.velocity = host.v[self];
+  m.inverse_mass = inverse(self);
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (c.weight[i] == 0.0) continue;
+    const std::size_t to = host_of(surface_own_[at(corner[i])]);
+    m.velocity -= c.weight[i] * host.v[to];
+    m.inverse_mass += c.weight[i] * c.weight[i] * inverse(to);
+  }
+  m.rate = dot(m.velocity, c.normal);
+  return m;
+}
+
+/// Tangent of the elastic law at the depth where the spring alone stops the pair (at most half the gap beyond p's own): energy keeps it
+/// the same from the first touch to the last, and with it the step.
+double BothSides::lasting_tangent(double k0, double gap, double p, const Motion& m) const {
+  const double inside = std::max(p, 0.0);
+  const double stop = m.inverse_mass > 0.0 ? std::sqrt(inside * inside + m.rate * m.rate / (k0 * m.inverse_mass)) : inside;
+  const double ratio = gap / (gap - std::max(inside, std::min(stop, 0.5 * gap)));
+  return k0 * ratio * ratio;
+}
+
+/// Elastic force and stored energy of a cycle: the law's own, but for the cycles in which the pair starts or ends (switching.hpp).
+BothSides::Spring BothSides::spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Motion& m,
+                                    const BothSidesForce& law) const {
+  const double moved = std::abs(m.rate) * host.dt;
+  if (!options_.switch_correction || host.dt <= 0.0 || p + moved > NormalLaw::bend * gap) return {law.elastic, law.energy};
+  const bool fresh = old.acts == 0;
+  const double others = !fresh && host.dt_bar_old > 0.0 ? (m.rate - old.rate) / host.dt_bar_old - old.acceleration : 0.0;
+  const Switched s = switched_spring({NormalLaw{gap, true}, k0, p, host.dt, m.rate, m.inverse_mass, others}, fresh);
+  return {s.force, s.stored};
+}
+
+Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, const Vec3& normal, const Vec3& v, double vn,
+                            double pressing, double critical, Sums& sums, bool& slips) const {
+  const Vec3 vt = v - vn * normal;
+  const double speed = norm(vt);
+  const double pressure = std::abs(pressing) / surface_.facet_area(pair.facet);
+  const double limit = friction_coefficient(options_.friction_law, options_.friction, pressure, speed) * std::abs(pressing);
+  const double a = options_.filter.weight(host.dt_bar_old);
+  if (options_.friction_form == BothSidesOptions::Friction::viscous) {
+    Vec3 force{};
+    slips = options_.friction_viscosity * critical * speed > limit;
+    if (speed > 0.0) force = (std::min(limit, options_.friction_viscosity * critical * speed) / speed) * vt;
+    if (options_.filter.acts()) force = a * force + (1.0 - a) * old.friction;
+    sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction));
+    return force;
+  }
+  pair.spring = a * pair_stiffness(pair.node, pair.facet);
+  Vec3 force = old.friction + (pair.spring * host.dt_bar_old) * v;
+  force -= dot(force, normal) * normal;
+  const double size = norm(force);
+  slips = size > limit;
+  if (slips) force = (limit / size) * force;
+  if (pair.spring > 0.0) {
+    const double stored = 0.5 * squared_norm(force) / pair.spring;
+    const double stored_before = old.spring > 0.0 ? 0.5 * squared_norm(old.friction) / old.spring : 0.0;
+    sums.elastic += stored;
+    if (slips) sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction) - (stored - stored_before));
+  }
+  return force;
+}
+
+bool BothSides::add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
+                         Sums& sums) {
+  const auto& corner = surface_.surface().local()[at(facet)];
+  const bool triangle = surface_.surface().facets()[at(facet)].is_triangle();
+  const std::size_t corners = triangle ? 3 : 4;
+  const Met met = meet(held_, surface_, node, facet, pair_gap(node, facet));
+  const BothSidesContact& c = met.contact;
+  const double k = pair_stiffness(node, facet);
+  if (c.penetration <= 0.0) {
+    if (k > 0.0) foresee(host, node, facet, 0.5 * k, old, stiffness, sums);
+    return false;
+  }
+  if (met.gap - c.penetration < exhausted * met.gap) {
+    gone_[at(node)] = 1;
+    return false;
+  }
+  Pair pair{node, facet, offset_of(old, met.gap, c.penetration), {}};
+  const double p = c.penetration - pair.offset;
+  const double gap = met.gap - pair.offset;
+  if (p <= 0.0 || k <= 0.0) {
+    pairs_.push_back(pair);
+    return false;
+  }
+  const auto host_of = [this](Index own) { return at(own_[at(own)]); };
+  const std::size_t self = host_of(held_own_[at(node)]);
+  const Motion m = motion(host, node, facet, c);
+  const double vn = m.rate;
+  if (vn < 0.0) {
+    const double step = 0.5 * (gap - p) / -vn;
+    if (options_.step_minimum > 0.0 && step <= options_.step_minimum) {
+      gone_[at(node)] = 1;
+      return false;
+    }
+    if (step < result.kinematic_step) {
+      result.kinematic_step = step;
+      result.kinematic_node = held_.nodes()[at(node)];
+    }
+  }
+
+  const double mass = mass_of(host, self);
+  const BothSidesForce law = both_sides_force(0.5 * k, gap, p, mass, vn, options_.damping);
+  const Spring elastic = spring(host, old, 0.5 * k, gap, p, m, law);
+  pair.damping = -law.damping * vn;
+  const double pressing = elastic.force + pair.damping;
+  pair.acts = 1;
+  pair.rate = vn;
+  pair.acceleration = pressing * m.inverse_mass;
+  bool slips = true;
+  if (options_.rubs()) pair.friction = friction_of(host, old, pair, c.normal, m.velocity, vn, pressing, law.critical, sums, slips);
+  if (slips) slips_[at(node)] = 1;
+
+  const Vec3 normal = pressing * c.normal;
+  const std::array<double, 4> share = triangle || !options_.all_pieces ? c.weight : without_hourglass(c.weight);
+  const Index own = held_own_[at(node)];
+  normal_[at(own)] += normal;
+  tangential_[at(own)] -= pair.friction;
+  const double inverse_h = (options_.reference_step ? 1.0 : 2.0) * (host.dt > 0.0 ? 1.0 / host.dt : 0.0);
+  const double viscous = options_.rubs() ? options_.friction_viscosity * law.critical * inverse_h : 0.0;
+  const double elastic_tangent = options_.switch_correction ? lasting_tangent(0.5 * k, gap, p, m) : law.tangent;
+  double tangent = std::max(elastic_tangent + law.damping * inverse_h, viscous);
+  if (!options_.reference_step) tangent = std::max(tangent, pair.spring);
+  stiffness[self] += tangent;
+  double smallest = mass > 0.0 ? 2.0 * mass / tangent : 1e30;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const Index to = surface_own_[at(corner[i])];
+    normal_[at(to)] -= share[i] * normal;
+    tangential_[at(to)] += share[i] * pair.friction;
+    stiffness[host_of(to)] += share[i] * tangent;
+    const double corner_mass = mass_of(host, host_of(to));
+    if (share[i] > 0.0 && corner_mass > 0.0) smallest = std::min(smallest, 2.0 * corner_mass / (share[i] * tangent));
+  }
+  if (options_.step_minimum > 0.0 && options_.step_scale * std::sqrt(smallest) <= options_.step_minimum) gone_[at(node)] = 1;
+  result.normal_force -= normal;
+  result.tangential_force += pair.friction;
+  if (p > result.largest_penetration) {
+    result.largest_penetration = p;
+    result.deepest_node = held_.nodes()[at(node)];
+  }
+  result.largest_approach = std::max(result.largest_approach, -vn * host.dt / options_.gap);
+  sums.elastic += elastic.stored;
+  sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * (pair.damping + old.damping));
+  pairs_.push_back(pair);
+  return true;
+}
+
+/// A pair that will touch within two of the longest steps so far already counts in the nodal sums of stiffness. The step is then short when it
+/// touches: leap-frog makes f (h' - h)(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 4a).
+/// The damper of a pair that has just opened worked over the first half of the last step.
+void BothSides::foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness,
+                        Sums& sums) const {
+  const double ahead = 2.0 * longest_step_ * fastest_;
+  if (!options_.switch_correction || !(ahead > 0.0)) return;
+  const double gap = pair_gap(node, facet);
+  const BothSidesContact c = meet(held_, surface_, node, facet, gap + ahead).contact;
+  if (c.penetration <= 0.0) return;
+  const Motion m = motion(host, node, facet, c);
+  const double vn = m.rate;
+  sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * old.damping);
+  const double p = c.penetration - ahead - 2.0 * longest_step_ * vn;
+  if (p <= 0.0) return;
+  const auto& corner = surface_.surface().local()[at(facet)];
+  const auto host_of = [this](Index own) { return at(own_[at(own)]); };
+  const std::size_t self = host_of(held_own_[at(node)]);
+  const BothSidesForce law = both_sides_force(k0, gap, std::min(p, 0.5 * gap), mass_of(host, self), vn, options_.damping);
+  const double tangent = std::max(lasting_tangent(k0, gap, 0.0, m), law.tangent) + 2.0 * law.damping / host.dt;
+  stiffness[self] += tangent;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (c.weight[i] > 0.0) stiffness[host_of(surface_own_[at(corner[i])])] += c.weight[i] * tangent;
+  }
+}
+
+/// Bound of the speed of any node relative to any facet; 0 where it is not finite.
+double BothSides::fastest(const HostState& host) const {
+  constexpr double big = 1e300;
+  Vec3 held_low{big, big, big}, held_high{-big, -big, -big}, low = held_low, high = held_high;
+  for (Index i = 0; i < held_.node_count(); ++i) {
+    if (gone_[at(i)] != 0) continue;
+    const Vec3& v = host.v[at(held_.nodes()[at(i)])];
+    for (int k = 0; k < 3; ++k) {
+      held_low[k] = std::min(held_low[k], v[k]);
+      held_high[k] = std::max(held_high[k], v[k]);
+    }
+  }
+  for (const Index n : surface_.nodes()) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], host.v[at(n)][k]);
+      high[k] = std::max(high[k], host.v[at(n)][k]);
+    }
+  }
+  Vec3 speed;
+  for (int k = 0; k < 3; ++k) speed[k] = std::max({held_high[k] - low[k], high[k] - held_low[k], 0.0});
+  const double size = norm(speed);
+  return size > 0.0 && size <= big ? size : 0.0;
+}
+
+}  // namespace abut::contact
