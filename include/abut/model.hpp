@@ -142,6 +142,7 @@ class Model {
 
   /// Looks at the contacts with the masses, velocities and step of the first cycle.
   /// @param with_step  the first step too: the interfaces are built for it
+  /// @throws RunError when a gradual start is of an interface that is not there or cannot have one
   [[nodiscard]] Inspection inspect(const Choices& choices = {}, bool with_step = false) const;
 
   struct Impl;

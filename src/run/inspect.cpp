@@ -36,6 +36,7 @@ class FirstCycle final : public cycle::Sink {
 
 Inspection Model::inspect(const Choices& choices, bool with_step) const {
   const model::Model& model = impl_->model;
+  run::check_starts(model, choices);
   const cycle::RunOptions options = run::options_of(choices, 1);
   Inspection out;
   out.part_mass.assign(model.parts.size(), 0.0);

@@ -186,6 +186,23 @@ std::optional<contact::Law> run::law_of(std::string_view name) {
   return name == "constant" ? contact::Law::constant : contact::Law::stiffening;
 }
 
+const model::Interface& run::interface_of(const model::Model& model, Id id, std::string_view choice) {
+  for (const model::Interface& i : model.interfaces) {
+    if (i.id == id) return i;
+  }
+  throw RunError(fmt::format("{} of interface {}: the deck has no such interface", choice, id));
+}
+
+void run::check_starts(const model::Model& model, const Choices& choices) {
+  for (const GradualStart& start : choices.gradual_starts) {
+    if (std::holds_alternative<model::InterfaceType7>(interface_of(model, start.interface_id, "gradual start").type)) {
+      throw RunError(fmt::format("gradual start of interface {}: it is of TYPE7, which has Inacti 5 and 6 for initial penetrations",
+                                 start.interface_id));
+    }
+    if (!(start.duration >= 0.0)) throw RunError(fmt::format("gradual start of interface {}: the time is negative", start.interface_id));
+  }
+}
+
 cycle::RunOptions run::options_of(const Choices& choices, int threads) {
   cycle::RunOptions options;
   options.threads = threads;

@@ -36,6 +36,10 @@ namespace run {
 /// "", "stiffening" or "constant", and back. @throws state::ArchiveError for another word
 [[nodiscard]] std::string law_name(const Choices& choices);
 [[nodiscard]] std::optional<contact::Law> law_of(std::string_view name);
+/// The interface of a choice that names one. @throws RunError naming the choice when the model has no such interface
+[[nodiscard]] const model::Interface& interface_of(const model::Model& model, Id id, std::string_view choice);
+/// @throws RunError when a gradual start is of an interface that is not there or cannot have one
+void check_starts(const model::Model& model, const Choices& choices);
 /// Options of the mechanics for these choices.
 [[nodiscard]] cycle::RunOptions options_of(const Choices& choices, int threads);
 

@@ -46,25 +46,11 @@ output::RunInfo run::program_info() {
 
 namespace {
 
-/// The interface of a choice that names one. @throws RunError naming the choice when the model has no such interface
-const model::Interface& interface_of(const Model& model, Id id, std::string_view choice) {
-  for (const model::Interface& i : model.impl().model.interfaces) {
-    if (i.id == id) return i;
-  }
-  throw RunError(fmt::format("{} of interface {}: the deck has no such interface", choice, id));
-}
-
 void check_choices(const Model& model, const RunSettings& settings) {
-  for (const GradualStart& start : settings.choices.gradual_starts) {
-    if (std::holds_alternative<model::InterfaceType7>(interface_of(model, start.interface_id, "gradual start").type)) {
-      throw RunError(fmt::format("gradual start of interface {}: it is of TYPE7, which has Inacti 5 and 6 for initial penetrations",
-                                 start.interface_id));
-    }
-    if (!(start.duration >= 0.0)) throw RunError(fmt::format("gradual start of interface {}: the time is negative", start.interface_id));
-  }
+  run::check_starts(model.impl().model, settings.choices);
   std::set<Id> recorded;
   for (const ContactRecording& r : settings.recordings) {
-    (void)interface_of(model, r.interface_id, "recording");
+    (void)run::interface_of(model.impl().model, r.interface_id, "recording");
     if (!recorded.insert(r.interface_id).second)
       throw RunError(fmt::format("recording of interface {}: it is asked for twice", r.interface_id));
   }

@@ -1,8 +1,11 @@
 """The contact library on its own: closed forms, arrays at the border, history."""
+import gc
+
 import numpy as np
 import pytest
 
 from abut import contact
+from support import resident_bytes
 
 GAP, CLEARANCE, FACET = 0.2, 0.1, 10.0
 
@@ -231,3 +234,90 @@ def test_inspection_finds_normals_that_look_away():
     assert len(flip_first) == 0 and flip_second.tolist() == [0] and ambiguous == [False, False]
     with pytest.raises(ValueError, match="second names node 9, but x has 8 rows"):
         contact.inspect(lower, [[4, 5, 9]], x)
+
+
+def test_a_log_is_replayed_with_the_same_bits(tmp_path):
+    """The log begins in the middle of a flight, with history; a replay makes the same forces, results and stiffness."""
+    x, made = interface(law="stiffening", friction=0.2)
+    start = flight(made, x, 120, mass=0.1, dt=1e-3)[:2]
+    log = tmp_path / "impact.calls"
+    made.record(log, "test, job 7")
+    recorded = flight(made, x, 60, mass=0.1, dt=1e-3, start=start)
+    made.stop_recording()
+    steps = []
+    replayed = contact.replay(log, steps.append)
+    assert (replayed.label, replayed.kind, replayed.nodes, replayed.facets) == ("test, job 7", "two surfaces", 8, 2)
+    assert (replayed.steps, replayed.different, replayed.first_different) == (60, 0, -1)
+    assert [s.number for s in steps] == list(range(60)) and all(s.same for s in steps)
+    assert steps[-1].replayed.elastic == recorded[2].elastic and steps[-1].dt == 1e-3
+    np.testing.assert_array_equal(steps[-1].recorded.normal_force, recorded[2].normal_force)
+    x, other = interface(law="stiffening", friction=0.2)
+    flight(other, x, 120, mass=0.1, dt=1e-3)
+    np.testing.assert_array_equal(flight(other, x, 60, mass=0.1, dt=1e-3, start=start)[:2], recorded[:2])  # recording changes nothing
+
+
+def test_logs_that_are_refused(tmp_path):
+    x, made = interface()
+    log = tmp_path / "contact.calls"
+    made.record(log)
+    flight(made, x, 5, mass=0.1, dt=1e-3)
+    made.stop_recording()
+    made.stop_recording()  # the second time it does nothing
+    whole = log.read_bytes()
+    log.write_bytes(whole[:-7])
+    with pytest.raises(ValueError, match="record"):
+        contact.replay(log)
+    log.write_bytes(b"not a log")
+    with pytest.raises(ValueError):
+        contact.replay(log)
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        contact.replay(tmp_path / "nowhere.calls")
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        made.record(tmp_path / "nowhere" / "contact.calls")
+    log.write_bytes(whole)
+    with pytest.raises(KeyError):  # an exception of the callback comes through
+        contact.replay(log, lambda step: {}["no"])
+
+
+def test_arrays_of_the_host_are_used_in_place():
+    """Forces arrive in the caller's memory, slices of a larger array too; a float64 array in C order is not copied to be read."""
+    x, made = interface()
+    larger = np.zeros((2, 8, 3))
+    made.search(x, np.zeros_like(x))
+    made.evaluate(x, np.zeros_like(x), larger[1], np.zeros(8))
+    assert not larger[0].any() and larger[1].any()
+    surface = contact.Surface([[0, 1, 2, 3]])
+    assert np.shares_memory(surface.facets, surface.facets) and not surface.facets.flags.writeable
+
+
+def test_nothing_leaks():
+    """Surfaces, interfaces, logs and refused calls, made and dropped: the process does not grow."""
+    size = 40
+    k = np.arange((size + 1)**2).reshape(size + 1, size + 1)
+    quads = np.stack([k[:-1, :-1], k[1:, :-1], k[1:, 1:], k[:-1, 1:]], axis=-1).reshape(-1, 4)
+    line = np.linspace(0, 1, size + 1)
+    sheet = np.stack(np.meshgrid(line, line, [0.0], indexing="ij"), axis=-1).reshape(-1, 3)
+    x = np.vstack([sheet, sheet + [0, 0, 0.01]])
+
+    def one_round():
+        lower, upper = contact.Surface(quads), contact.Surface(quads[:, ::-1] + len(sheet))
+        made = contact.Interface.two_surfaces(lower, upper, contact.Options(gap=0.015))
+        for side in (0, 1):
+            made.set_surface(side, stiffness=np.full(len(quads), 1.0))
+        force, stiffness = np.zeros_like(x), np.zeros(len(x))
+        made.step(x, np.zeros_like(x), force, stiffness, dt=1e-3)
+        kept = [made.history(), made.nodal_forces(len(x)), made.nodal_contact(len(x)), made.nodal_area(x), lower.neighbours, lower.facets]
+        kept.append(contact.inspect(lower, upper, x, gap=0.015))
+        with pytest.raises(TypeError):
+            made.step(x, x, [[0.0] * 3] * len(x), stiffness, dt=1e-3)
+        return len(kept)
+
+    for _ in range(10):
+        one_round()
+    gc.collect()
+    before = resident_bytes()
+    for _ in range(40):
+        one_round()
+    gc.collect()
+    # One history alone is some 200 kB: a leak of it would be 8 MB.
+    assert resident_bytes() - before < 4e6

@@ -310,6 +310,40 @@ def test_settings_that_are_refused(arguments, words):
         abut.Run(two_blocks().build(), **arguments)
 
 
+def test_recorded_contact_is_replayed(tmp_path):
+    """record_contact keeps an interface's inputs between two times; the replay has the same bits, the run has them too."""
+    model = two_blocks().build()
+    run = abut.Run(model, threads=1, output=tmp_path, record_contact={1: (0.01, 0.02)})
+    run.advance_to_end()
+    steps = []
+    replayed = abut.contact.replay(tmp_path / "twoblocks_contact_1.calls", steps.append)
+    assert replayed.steps > 0 and replayed.different == 0
+    assert all(0.01 <= s.time <= 0.02 for s in steps)
+    plain = abut.Run(model, threads=1)
+    plain.advance_to_end()
+    assert plain.state_hash == run.state_hash
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (dict(record_contact={1: None}), "record_contact needs an output folder"),
+    (dict(record_contact={9: None}, output=True), "9"),
+    (dict(gradual_starts={9: 1.0}), "9"),
+])
+def test_interfaces_that_are_not_there(tmp_path, arguments, words):
+    if "output" in arguments:
+        arguments = {**arguments, "output": tmp_path}
+    with pytest.raises((ValueError, RuntimeError), match=words):
+        abut.Run(two_blocks().build(), **arguments)
+
+
+def test_the_inspection_knows_of_gradual_starts():
+    """The first step is that of the choices; an interface that is not there is refused as by a run."""
+    model = two_blocks().build()
+    assert model.inspect(gradual_starts={1: 0.01}, with_step=True).first_step > 0
+    with pytest.raises((ValueError, RuntimeError), match="9"):
+        model.inspect(gradual_starts={9: 0.01}, with_step=True)
+
+
 def test_nothing_leaks():
     """Models, runs, views, histories and exceptions, made and dropped: the process does not grow."""
     text, engine = two_blocks().starter_text(), [two_blocks().engine_text()]

@@ -1,15 +1,16 @@
-// How fast a report is: node browser/measure.mjs REPORT.html prints JSON. Headless Chromium, software rendering, 1280x720.
+// How fast a report is: node browser/measure.mjs REPORT.html [chromium|firefox] prints JSON. No window, software rendering, 1280x720.
 //   first_picture_ms  from the start of loading to the first complete picture
 //   scrub_ms          median over jumps to all states in random order, each from the wish to the complete picture; every
 //                     state is decoded on the way
 //   scrub_again_ms    the same when all states are decoded
-import { findChromium, launch, openReport } from "./browser.mjs";
+import { missing, launch, openReport } from "./browser.mjs";
 
-if (!findChromium()) {
-  console.log("skipped: there is no Chromium here");
+const name = process.argv[3] ?? "chromium";
+if (missing(name)) {
+  console.log(`skipped: ${missing(name)}`);
   process.exit(77);
 }
-const browser = await launch();
+const browser = await launch(name);
 // The browser's own start and its first use of the graphics library are not the report's.
 const warm = await browser.newPage();
 await warm.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null);

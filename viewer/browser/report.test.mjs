@@ -1,12 +1,12 @@
-// The report in a real browser, without a network: node browser/report.test.mjs REPORT.html FINDINGS.html [SCREENSHOTS]
+// The report in a real browser, without a network: node browser/report.test.mjs REPORT.html FINDINGS.html [SCREENSHOTS [chromium|firefox]]
 //   REPORT    of examples/decks/plate_drop
 //   FINDINGS  of examples/decks/findings/normals_away, whose contact surfaces look away from each other
-// Exit status 77 with a message when there is no Chromium. Screenshots stay in the folder.
+// Exit status 77 with a message when there is no such browser. Screenshots stay in the folder.
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import path from "node:path";
 
-const [report, findings, folder = "screenshots"] = process.argv.slice(2);
+const [report, findings, folder = "screenshots", name = "chromium"] = process.argv.slice(2);
 let tools;
 try {
   tools = { ...(await import("./browser.mjs")), ...(await import("./png.mjs")) };
@@ -14,13 +14,14 @@ try {
   console.log(`skipped: playwright-core is not installed in viewer/ (npm ci): ${error.message}`);
   process.exit(77);
 }
-const { findChromium, launch, openReport, readPng, describe, difference, share } = tools;
-if (!findChromium()) {
-  console.log("skipped: there is no Chromium here (scripts/install-deps --tests installs it)");
+const { missing, launch, openReport, readPng, describe, difference, share } = tools;
+if (missing(name)) {
+  console.log(`skipped: ${missing(name)}`);
   process.exit(77);
 }
 mkdirSync(folder, { recursive: true });
-const browser = await launch();
+const browser = await launch(name);
+console.log(`${name} ${browser.version()}`);
 
 const settle = (page) => page.evaluate(() => window.abut.drawn().then(() => new Promise((done) => setTimeout(done, 60))));
 /** The picture alone, without the legend above it. */

@@ -12,11 +12,11 @@
 
 Units are the host's, as long as they are consistent.
 """
-from ._native.contact import (BothSidesOptions, Facing, Finding, FrictionFilter, FrictionLaw, InspectionLimits, Interface, Options, Rules,
-                              StepResult, Surface, facing, inspect, orient)
+from ._native.contact import (BothSidesOptions, Facing, Finding, FrictionFilter, FrictionLaw, InspectionLimits, Interface, Options, Replay,
+                              ReplayedStep, Rules, StepResult, Surface, facing, inspect, orient, replay)
 
-__all__ = ["BothSidesOptions", "Facing", "Finding", "FrictionFilter", "FrictionLaw", "InspectionLimits", "Interface", "Options", "Rules",
-           "StepResult", "Surface", "facing", "inspect", "orient"]
+__all__ = ["BothSidesOptions", "Facing", "Finding", "FrictionFilter", "FrictionLaw", "InspectionLimits", "Interface", "Options", "Replay",
+           "ReplayedStep", "Rules", "StepResult", "Surface", "facing", "inspect", "orient", "replay"]
 
 for _name in __all__:
     if isinstance(globals()[_name], type):

@@ -1,12 +1,14 @@
 // Surfaces and interfaces for hosts written in Python.
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "abut/contact/interface.hpp"
 #include "arrays.hpp"
+#include "files.hpp"
 #include "parallel/thread_pool.hpp"
 #include "parts.hpp"
 
@@ -62,6 +64,7 @@ struct HeldInterface {
   HeldInterface(Interface i, py::ssize_t needed, std::array<py::ssize_t, 2> f, std::array<py::ssize_t, 2> h)
       : interface(std::move(i)), nodes_needed(needed), facets(f), held(h) {}
 
+  std::ofstream log;  ///< of record(); goes after the interface that writes to it
   Interface interface;
   py::ssize_t nodes_needed;
   std::array<py::ssize_t, 2> facets, held;  ///< of each side
@@ -277,6 +280,24 @@ void restore(HeldInterface& i, const py::bytes& saved) {
   i.evaluated = false;
 }
 
+void record(HeldInterface& i, const std::filesystem::path& path, const std::string& label) {
+  const Work work(i);
+  i.interface.stop_recording();
+  i.log.close();
+  i.log.clear();
+  i.log.open(path, std::ios::binary | std::ios::trunc);
+  if (!i.log) throw_os_error(path);
+  i.interface.record(i.log, label);
+}
+
+void stop_recording(HeldInterface& i) {
+  const Work work(i);
+  i.interface.stop_recording();
+  if (!i.log.is_open()) return;
+  i.log.close();
+  if (i.log.fail()) throw std::runtime_error("the end of the call log cannot be written");
+}
+
 void bind_interface(py::module_& m) {
   py::class_<HeldInterface>(
       m, "Interface",
@@ -316,9 +337,20 @@ void bind_interface(py::module_& m) {
       .def_property_readonly(
           "nodes_in_contact", [](const HeldInterface& i) { return copy(i.interface.nodes_in_contact()); },
           "held nodes that touch now: indices, each once")
+      .def_property_readonly(
+          "nodes_crossed", [](const HeldInterface& i) { return copy(i.interface.nodes_crossed()); },
+          "nodes that StepResult.crossed of the last evaluate() counts: indices")
+      .def_property_readonly(
+          "nodes_lost", [](const HeldInterface& i) { return copy(i.interface.nodes_lost()); },
+          "nodes that StepResult.lost of the last evaluate() counts: indices")
       .def("projections", &projections, "x"_a, py::kw_only(), "move_surface"_a = false,
            "Moves that take initial penetrations away, for the host to apply before it starts: nodes (K,) and moves (K, 3).")
       .def("history", &history, "Friction anchors, held pairs, energies and previous forces as bytes, for a checkpoint.")
+      .def("record", &record, "path"_a, "label"_a = "",
+           "From now on all inputs go to a file that replay() and `abut replay` make again; results do not change by it.\n\n"
+           "The log begins with the history so far: 48 bytes per node and step. label: what the host calls itself and the job.\n"
+           "Raises OSError when the file cannot be opened; later calls raise RuntimeError when it cannot be written.")
+      .def("stop_recording", &stop_recording, "Ends the log and closes its file; the end of the interface does it too.")
       .def("restore", &restore, "history"_a,
            "Takes the history of an equal interface. Raises ValueError when it is a foreign or damaged one.");
 }

@@ -200,8 +200,11 @@ void bind_result(py::module_& m) {
       .def_readonly("in_contact", &StepResult::in_contact, "held nodes that touch, both passes")
       .def_readonly("largest_penetration", &StepResult::largest_penetration, "length")
       .def_readonly("crossed", &StepResult::crossed, "nodes that would have jumped through in this step, and were caught")
+      .def_readonly("lost", &StepResult::lost, "nodes that were held and have gone over a free border in this step")
+      .def_readonly("deepest_node", &StepResult::deepest_node, "the host's node that has the largest penetration; -1: none")
       .def_readonly("largest_approach", &StepResult::largest_approach, "normal approach in the last step, in units of gap")
       .def_readonly("kinematic_step", &StepResult::kinematic_step, "upper limit of the coming step; 1e30: none")
+      .def_readonly("kinematic_node", &StepResult::kinematic_node, "the host's node that gives it; -1: none")
       .def("__repr__", [](const StepResult& r) {
         return "StepResult(in_contact=" + std::to_string(r.in_contact) + ", elastic=" + std::to_string(r.elastic) +
                ", friction_work=" + std::to_string(r.friction_work) + ")";

@@ -1,6 +1,7 @@
 // Words of the run API's choices.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,10 +28,14 @@ inline constexpr Names<StepController::Kind, 8> controller_kinds{{{"none", StepC
                                                                   {"interface", StepController::Kind::interface},
                                                                   {"fixed", StepController::Kind::fixed}}};
 
-inline Choices choices_of(const std::string& rules, const std::optional<std::string>& interface_law) {
+/// Interface id to the time over which its initial penetrations are pushed out.
+using Durations = std::map<Id, double>;
+
+inline Choices choices_of(const std::string& rules, const std::optional<std::string>& interface_law, const Durations& gradual_starts) {
   Choices c;
   c.rules = named(rules, "rules", rule_sets);
   if (interface_law) c.interface_law = named(*interface_law, "interface_law", laws);
+  for (const auto& [id, duration] : gradual_starts) c.gradual_starts.push_back({id, duration});
   return c;
 }
 

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_native, m) {
   pybind11::module_ contact = m.def_submodule("contact", "The contact library on its own.");
   abut::python::bind_contact_options(contact);
   abut::python::bind_contact(contact);
+  abut::python::bind_replay(contact);
   abut::python::bind_inspection(contact);
   abut::python::bind_diagnostics(m);
   abut::python::bind_model(m);

@@ -4,7 +4,8 @@ import type { ReportDocument } from "../data/document";
 import { componentsOf, fieldRange, fieldText, scalarQuanta, valueAt, chunkRange, type Range } from "../data/fields";
 import type { ChunkStore } from "../data/store";
 import { partColor } from "../view/colormap";
-import { View, type Coloring } from "../view/scene";
+import type { Coloring } from "../view/materials";
+import { View } from "../view/scene";
 import type { State } from "./state";
 
 export interface Owner {

@@ -34,6 +34,7 @@ export interface PlotHost {
 /** One plot; remakes itself when the theme or the place changes. */
 class Plot {
   readonly element = h("div", { class: "plot" });
+  private readonly line = h("div", { class: "plot-mark", hidden: true });
   private plot: uPlot | undefined;
   private readonly on: boolean[];
   private readonly observer: ResizeObserver;
@@ -57,13 +58,19 @@ class Plot {
   }
   /** Marks the picture's time; the legend shows its values while the pointer is elsewhere. */
   mark(): void {
+    this.place();
     const at = this.host.time();
     const time = this.host.columns.get("time");
-    this.plot?.redraw(false, false);
-    requestAnimationFrame(() => {
-      if (!this.plot || at === undefined || !time || this.plot.cursor.left! >= 0) return;
-      this.plot.setLegend({ idx: nearestIndex(time, at) }, false);
-    });
+    if (!this.plot || at === undefined || !time || this.plot.cursor.left! >= 0) return;
+    this.plot.setLegend({ idx: nearestIndex(time, at) }, false);
+  }
+
+  /** The line at the picture's time is an element above the plot: moving it draws no plot again. */
+  private place(): void {
+    const at = this.host.time();
+    const x = this.plot && at !== undefined ? this.plot.valToPos(at, "x") : -1;
+    this.line.hidden = !(x >= 0 && x <= this.plot!.over.clientWidth);
+    if (!this.line.hidden) this.line.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
 
   private fill(): void {
@@ -86,7 +93,6 @@ class Plot {
     if (!time) return;
     const text = cssValue("--text-2");
     const grid = cssValue("--grid");
-    const mark = cssValue("--text");
     const font = "11px " + cssValue("--font");
     const anyRight = this.lines.some((l) => l.right);
     const axis = (extra: uPlot.Axis): uPlot.Axis => ({
@@ -164,22 +170,8 @@ class Plot {
           ],
           draw: [
             (u) => {
-              const at = this.host.time();
-              const { left, top, width: w, height: t } = u.bbox;
-              const context = u.ctx;
               if (this.options.strip) drawStrip(u, time, this.options.strip);
-              if (at === undefined) return;
-              const x = u.valToPos(at, "x", true);
-              if (x < left || x > left + w) return;
-              context.save();
-              context.strokeStyle = mark;
-              context.lineWidth = devicePixelRatio;
-              context.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
-              context.beginPath();
-              context.moveTo(x, top);
-              context.lineTo(x, top + t);
-              context.stroke();
-              context.restore();
+              this.place();
             },
           ],
         },
@@ -188,6 +180,7 @@ class Plot {
       this.element,
     );
     this.plot = plot;
+    plot.over.append(this.line);
     // The plot leaves room for its legend, whose height is known once it is laid out.
     const names = this.element.querySelector(".u-legend");
     if (names) this.observer.observe(names);

@@ -1,58 +1,31 @@
 // The picture: three.js objects over one set of buffers, drawn when something changed.
 import {
-  Box3,
   BufferAttribute,
   BufferGeometry,
-  ClampToEdgeWrapping,
-  DataTexture,
-  DoubleSide,
-  GLSL3,
+  Color,
   LineSegments,
-  LinearFilter,
   Mesh,
-  NearestFilter,
-  PerspectiveCamera,
   Points,
-  RGBAFormat,
-  RawShaderMaterial,
   Scene,
   Sphere,
   SRGBColorSpace,
-  NoColorSpace,
-  UnsignedByteType,
-  Vector2,
   Vector3,
   Vector4,
   WebGLRenderer,
-  Color,
+  type RawShaderMaterial,
 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Look, Range } from "../data/fields";
 import { TOP, type ChunkInfo } from "../data/chunk";
-import { colorTable, type ColorMap } from "./colormap";
+import type { Range } from "../data/fields";
+import { makeArrows, type ArrowGroup } from "./arrows";
+import type { ColorMap } from "./colormap";
+import { FaceMaterials, displacement, plainMaterial, type Coloring } from "./materials";
 import { assignVertices, edgeLines, faceNormals, featureEdges, findEdges, triangles, type Edges, type Faces, type Vertices } from "./mesh";
 import { pick, type Hit, type Vec } from "./pick";
-import { faceFragment, faceVertex, plainFragment, plainVertex } from "./shaders";
-
-export interface Coloring {
-  quanta: Uint16Array;
-  /** Of the quanta. */
-  range: Range;
-  /** Of the colours. */
-  shown: Range;
-  on: "node" | "element";
-  look: Look;
-}
-
-/** Width that the legend takes, in pixels. */
-const LEGEND = 170;
-
-const looks: Record<Look, number> = { plain: 0, sparse: 1, state: 2 };
+import { Rig } from "./rig";
 
 export class View {
   readonly renderer: WebGLRenderer;
-  readonly camera = new PerspectiveCamera(28, 1, 0.01, 100);
-  readonly controls: OrbitControls;
+  readonly rig: Rig;
   readonly faces: Faces;
   readonly vertices: Vertices;
   private readonly scene = new Scene();
@@ -69,8 +42,8 @@ export class View {
     "faces" | "outline" | "mesh" | "markFaces" | "markNodes" | "selectedFace" | "selectedNode",
     Mesh | LineSegments | Points
   >;
-  private readonly displacement = { uLow: { value: new Vector3() }, uRange: { value: new Vector3() }, uDeform: { value: 1 } };
-  private readonly faceMaterial: RawShaderMaterial;
+  private readonly displacement = displacement(1);
+  private readonly faceMaterials = new FaceMaterials(this.displacement);
   private edges: Edges | undefined;
   private outline: Uint8Array | undefined;
   private visibleFace: Uint8Array;
@@ -79,8 +52,6 @@ export class View {
   private displacementInfo: ChunkInfo | undefined;
   private moved: Float32Array | undefined;
   private meshShown = false;
-  private size = 1;
-  private covered = 0;
   /** Called after each picture. */
   onDraw: (() => void) | undefined;
   drawCount = 0;
@@ -103,12 +74,12 @@ export class View {
 
     const count = this.vertices.node.length;
     const base = new Float32Array(3 * count);
-    const part = new Float32Array(count);
+    const colors = new Uint8Array(4 * count);
     for (let v = 0; v < count; v++) {
       const n = this.vertices.node[v]!;
       for (let c = 0; c < 3; c++) base[3 * v + c] = points[c * nodes + n]!;
       const f = this.vertices.faceOf[v]!;
-      part[v] = f < 0 ? 0 : partOfFace[f]!;
+      if (f >= 0) colors.set(parts[partOfFace[f]!]!, 4 * v);
     }
     const position = new BufferAttribute(base, 3);
     this.frameAttribute = new BufferAttribute(new Uint16Array(4 * count), 4, true);
@@ -127,57 +98,19 @@ export class View {
       geometry.setAttribute("frame", this.frameAttribute);
       geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
     }
-    this.faceGeometry.setAttribute("part", new BufferAttribute(part, 1));
+    this.faceGeometry.setAttribute("base", new BufferAttribute(colors, 4, true));
 
-    const palette = new Uint8Array(4 * Math.max(1, parts.length));
-    parts.forEach((p, i) => palette.set([...p, 255], 4 * i));
-    const partTexture = new DataTexture(palette, Math.max(1, parts.length), 1, RGBAFormat, UnsignedByteType);
-    partTexture.minFilter = partTexture.magFilter = NearestFilter;
-    partTexture.needsUpdate = true;
-    this.faceMaterial = new RawShaderMaterial({
-      glslVersion: GLSL3,
-      vertexShader: faceVertex,
-      fragmentShader: faceFragment,
-      side: DoubleSide,
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 1,
-      uniforms: {
-        ...this.displacement,
-        uValue: { value: new Vector2() },
-        uShown: { value: new Vector2(0, 1) },
-        uColors: { value: null },
-        uParts: { value: partTexture },
-        uMode: { value: 2 },
-        uLook: { value: 0 },
-        uBands: { value: 0 },
-      },
-    });
-    const plain = (color: Vector4, size = 1, forward = 0, round = false) =>
-      new RawShaderMaterial({
-        glslVersion: GLSL3,
-        vertexShader: plainVertex,
-        fragmentShader: plainFragment,
-        side: DoubleSide,
-        transparent: color.w < 1,
-        uniforms: {
-          ...this.displacement,
-          uColor: { value: color },
-          uSize: { value: size },
-          uForward: { value: forward },
-          uRound: { value: round },
-        },
-      });
+    const plain = (color: Vector4, options: Parameters<typeof plainMaterial>[2] = {}) => plainMaterial(this.displacement, color, options);
     const ratio = this.renderer.getPixelRatio();
     const magenta = new Vector4(0.91, 0.12, 0.55, 0.82);
     this.objects = {
-      faces: new Mesh(this.faceGeometry, this.faceMaterial),
+      faces: new Mesh(this.faceGeometry, this.faceMaterials.of(undefined)),
       mesh: new LineSegments(this.meshGeometry, plain(new Vector4(0, 0, 0, 0.22))),
-      outline: new LineSegments(this.outlineGeometry, plain(new Vector4(0, 0, 0, 0.75), 1, 1e-6)),
-      markFaces: new Mesh(this.markFaces, plain(magenta, 1, 2e-5)),
-      markNodes: new Points(this.markNodes, plain(new Vector4(0.91, 0.12, 0.55, 1), 7 * ratio, 8e-5, true)),
-      selectedFace: new Mesh(this.selectedFace, plain(new Vector4(1, 0.84, 0.2, 0.75), 1, 4e-5)),
-      selectedNode: new Points(this.selectedNode, plain(new Vector4(1, 0.3, 0.1, 1), 11 * ratio, 2e-4, true)),
+      outline: new LineSegments(this.outlineGeometry, plain(new Vector4(0, 0, 0, 0.75), { forward: 1e-6 })),
+      markFaces: new Mesh(this.markFaces, plain(magenta, { forward: 2e-5 })),
+      markNodes: new Points(this.markNodes, plain(new Vector4(0.91, 0.12, 0.55, 1), { size: 7 * ratio, forward: 8e-5, round: true })),
+      selectedFace: new Mesh(this.selectedFace, plain(new Vector4(1, 0.84, 0.2, 0.75), { forward: 4e-5 })),
+      selectedNode: new Points(this.selectedNode, plain(new Vector4(1, 0.3, 0.1, 1), { size: 11 * ratio, forward: 2e-4, round: true })),
     };
     Object.values(this.objects).forEach((object, order) => {
       object.frustumCulled = false;
@@ -187,11 +120,7 @@ export class View {
     for (const empty of [this.markFaces, this.markNodes, this.selectedFace, this.selectedNode, this.meshGeometry, this.outlineGeometry])
       this.setIndex(empty, new Uint32Array());
     this.rebuildFaces();
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableDamping = false;
-    this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => this.draw());
+    this.rig = new Rig(canvas, () => this.draw());
     this.look([-0.75, -1, 0.62]);
   }
 
@@ -252,15 +181,8 @@ export class View {
     return this.meshShown;
   }
 
-  setColorMap(map: ColorMap, bands = 0): void {
-    const texture = new DataTexture(colorTable(map), 256, 1, RGBAFormat, UnsignedByteType);
-    texture.minFilter = texture.magFilter = LinearFilter;
-    texture.wrapS = ClampToEdgeWrapping;
-    texture.colorSpace = NoColorSpace;
-    texture.needsUpdate = true;
-    (this.faceMaterial.uniforms["uColors"]!.value as DataTexture | null)?.dispose();
-    this.faceMaterial.uniforms["uColors"]!.value = texture;
-    this.faceMaterial.uniforms["uBands"]!.value = bands;
+  setColorMap(map: ColorMap): void {
+    this.faceMaterials.setColorMap(map);
     this.draw();
   }
 
@@ -283,8 +205,7 @@ export class View {
         to[i + 2] = displacement[2 * nodes + n]!;
       }
     }
-    const uniforms = this.faceMaterial.uniforms;
-    uniforms["uMode"]!.value = coloring ? (coloring.on === "element" ? 1 : 0) : 2;
+    this.objects.faces.material = this.faceMaterials.of(coloring);
     if (coloring) {
       const q = coloring.quanta;
       if (coloring.on === "element") {
@@ -295,16 +216,13 @@ export class View {
       } else {
         for (let v = 0, i = 3; v < count; v++, i += 4) to[i] = q[node[v]!]!;
       }
-      (uniforms["uValue"]!.value as Vector2).set(coloring.range.low, coloring.range.high - coloring.range.low);
-      (uniforms["uShown"]!.value as Vector2).set(coloring.shown.low, coloring.shown.high);
-      uniforms["uLook"]!.value = looks[coloring.look];
     }
     this.frameAttribute.needsUpdate = true;
     this.draw();
   }
 
   setShown(shown: Range): void {
-    (this.faceMaterial.uniforms["uShown"]!.value as Vector2).set(shown.low, shown.high);
+    this.faceMaterials.setShown(shown);
     this.draw();
   }
 
@@ -368,74 +286,26 @@ export class View {
   }
 
   /** Arrows along the normals of segments; an empty list takes them away. */
-  setArrows(groups: readonly { segments: readonly (readonly number[])[]; color: [number, number, number] }[]): void {
+  setArrows(groups: readonly ArrowGroup[]): void {
     for (const old of this.arrows.splice(0)) {
       this.scene.remove(old);
       old.geometry.dispose();
     }
-    const p = this.positions();
-    const n = p.length / 3;
-    const at = (i: number) => new Vector3(p[i]!, p[n + i]!, p[2 * n + i]!);
-    for (const group of groups) {
-      const out: number[] = [];
-      for (const s of group.segments) {
-        const x = s.map((i) => at(i));
-        const triangle = s[3] === s[2];
-        const centre = triangle
-          ? x[0]!.clone().add(x[1]!).add(x[2]!).divideScalar(3)
-          : x[0]!.clone().add(x[1]!).add(x[2]!).add(x[3]!).divideScalar(4);
-        const along = triangle ? x[1]!.clone().sub(x[0]!) : x[2]!.clone().sub(x[0]!);
-        const across = triangle ? x[2]!.clone().sub(x[0]!) : x[3]!.clone().sub(x[1]!);
-        const normal = along.clone().cross(across);
-        const length = 0.55 * Math.sqrt(normal.length() / 2);
-        normal.normalize().multiplyScalar(length);
-        const tip = centre.clone().add(normal);
-        out.push(...centre.toArray(), ...tip.toArray());
-        const side = along.normalize().multiplyScalar(0.14 * length);
-        const back = normal.clone().multiplyScalar(0.72).add(centre);
-        out.push(...tip.toArray(), ...back.clone().add(side).toArray(), ...tip.toArray(), ...back.clone().sub(side).toArray());
-      }
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(Float32Array.from(out), 3));
-      geometry.setAttribute("frame", new BufferAttribute(new Uint16Array((out.length / 3) * 4), 4, true));
-      const material = new RawShaderMaterial({
-        glslVersion: GLSL3,
-        vertexShader: plainVertex,
-        fragmentShader: plainFragment,
-        uniforms: {
-          uLow: { value: new Vector3() },
-          uRange: { value: new Vector3() },
-          uDeform: { value: 0 },
-          uColor: { value: new Vector4(...group.color, 1) },
-          uSize: { value: 1 },
-          uForward: { value: 5e-5 },
-          uRound: { value: false },
-        },
-      });
-      const lines = new LineSegments(geometry, material);
-      lines.frustumCulled = false;
-      lines.renderOrder = 10;
-      this.arrows.push(lines);
-      this.scene.add(lines);
-    }
+    for (const group of groups) this.arrows.push(makeArrows(group, this.positions()));
+    if (this.arrows.length > 0) this.scene.add(...this.arrows);
     this.draw();
   }
 
   pickAt(x: number, y: number): Hit | undefined {
-    const box = this.canvas.getBoundingClientRect();
-    const from = this.camera.position.clone();
-    const to = new Vector3(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2, 0.5).unproject(this.camera);
-    const direction = to.sub(from).normalize();
-    return pick(this.faces, this.positions(), (f) => this.visibleFace[f] === 1, from.toArray() as Vec, direction.toArray() as Vec);
+    const { origin, direction } = this.rig.ray(x, y);
+    return pick(this.faces, this.positions(), (f) => this.visibleFace[f] === 1, origin, direction);
   }
 
   /** Where a node is drawn, in pixels of the window. */
   project(node: number): { x: number; y: number } {
     const p = this.positions();
     const n = p.length / 3;
-    const v = new Vector3(p[node]!, p[n + node]!, p[2 * n + node]!).project(this.camera);
-    const box = this.canvas.getBoundingClientRect();
-    return { x: box.left + ((v.x + 1) / 2) * box.width, y: box.top + ((1 - v.y) / 2) * box.height };
+    return this.rig.project([p[node]!, p[n + node]!, p[2 * n + node]!]);
   }
 
   // ---- camera ------------------------------------------------------------------------------------------------------
@@ -443,115 +313,33 @@ export class View {
   resize(width: number, height: number): void {
     if (width <= 0 || height <= 0) return;
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    // The legend stands at the right: the middle of the picture moves to the middle of what is left.
-    this.covered = width > 3 * LEGEND ? LEGEND / width : 0;
-    this.camera.setViewOffset(width, height, (this.covered * width) / 2, 0, width, height);
-    this.camera.updateProjectionMatrix();
+    this.rig.resize(width, height);
     this.draw();
   }
 
-  /** Nodes of the visible faces, or those given. */
-  private *framed(nodes: readonly number[] | undefined): Iterable<number> {
-    if (nodes && nodes.length > 0) {
-      yield* nodes;
-      return;
-    }
+  /** Nodes of the visible faces. */
+  private visibleNodes(): number[] {
     const seen = new Uint8Array(this.points.length / 3);
+    const out: number[] = [];
     for (let f = 0; f < this.faces.count; f++) {
       if (!this.visibleFace[f]) continue;
       for (let k = 0; k < 4; k++) {
         const i = this.faces.corners[k * this.faces.count + f]!;
-        if (!seen[i]) yield i;
+        if (!seen[i]) out.push(i);
         seen[i] = 1;
       }
     }
-  }
-
-  private bounds(nodes: readonly number[] | undefined): Box3 {
-    const p = this.positions();
-    const n = p.length / 3;
-    const box = new Box3();
-    const x = new Vector3();
-    for (const i of this.framed(nodes)) box.expandByPoint(x.set(p[i]!, p[n + i]!, p[2 * n + i]!));
-    if (box.isEmpty()) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
-    return box;
+    return out;
   }
 
   /** Brings the visible faces, or some nodes with something around them, into the frame. */
   fit(nodes?: readonly number[]): void {
-    const all = this.bounds(undefined).getSize(new Vector3()).length() / 2;
-    this.size = Math.max(all, 1e-12);
-    const box = nodes ? this.bounds(nodes) : this.bounds(undefined);
-    const centre = box.getCenter(new Vector3());
-    const back = this.camera.position.clone().sub(this.controls.target).normalize();
-    const right = this.camera.up.clone().cross(back).normalize();
-    const up = back.clone().cross(right);
-    const vertical = Math.tan(((this.camera.fov / 2) * Math.PI) / 180);
-    const horizontal = vertical * this.camera.aspect * (1 - this.covered);
-    // The nearest place from which every node is seen: depth + side/tan for each. Perspective makes what is near larger: the middle of
-    // the picture is found in a few rounds.
-    const p = this.positions();
-    const n = p.length / 3;
-    const chosen = [...this.framed(nodes)];
-    const x = new Vector3();
-    let distance = 0;
-    for (let round = 0; round < 4; round++) {
-      distance = 0;
-      for (const i of chosen) {
-        x.set(p[i]!, p[n + i]!, p[2 * n + i]!).sub(centre);
-        distance = Math.max(distance, x.dot(back) + Math.max(Math.abs(x.dot(right)) / horizontal, Math.abs(x.dot(up)) / vertical));
-      }
-      if (round === 3 || !(distance > 0)) break;
-      const extent = { left: Infinity, right: -Infinity, low: Infinity, high: -Infinity };
-      for (const i of chosen) {
-        x.set(p[i]!, p[n + i]!, p[2 * n + i]!).sub(centre);
-        const depth = distance - x.dot(back);
-        if (!(depth > 0)) continue;
-        extent.left = Math.min(extent.left, x.dot(right) / depth);
-        extent.right = Math.max(extent.right, x.dot(right) / depth);
-        extent.low = Math.min(extent.low, x.dot(up) / depth);
-        extent.high = Math.max(extent.high, x.dot(up) / depth);
-      }
-      if (!Number.isFinite(extent.left)) break;
-      centre.addScaledVector(right, (distance * (extent.left + extent.right)) / 2);
-      centre.addScaledVector(up, (distance * (extent.low + extent.high)) / 2);
-    }
-    distance = Math.max(1.08 * distance, nodes ? (0.16 * this.size) / vertical : 1e-9 * this.size);
-    this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(back, distance);
-    this.updateDepth();
-    this.controls.update();
-    this.draw();
+    const positions = this.positions();
+    this.rig.fit({ positions, nodes: this.visibleNodes() }, nodes && nodes.length > 0 ? { positions, nodes } : undefined);
   }
-
   look(direction: Vec): void {
-    const d = new Vector3(...direction).normalize();
-    this.camera.position.copy(this.controls.target).add(d);
+    this.rig.look(direction);
     this.fit();
-  }
-
-  private updateDepth(): void {
-    const distance = this.camera.position.distanceTo(this.controls.target) + this.controls.target.length();
-    this.camera.near = Math.max(1e-3 * this.size, 1e-3 * distance);
-    this.camera.far = distance + 12 * this.size;
-    this.camera.updateProjectionMatrix();
-  }
-
-  turn(azimuth: number, polar: number): void {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    offset.applyAxisAngle(this.camera.up, azimuth);
-    const right = offset.clone().cross(this.camera.up).normalize();
-    const turned = offset.clone().applyAxisAngle(right, polar);
-    if (Math.abs(turned.clone().normalize().dot(this.camera.up)) < 0.995) offset.copy(turned);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.draw();
-  }
-  zoom(factor: number): void {
-    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
-    this.controls.update();
-    this.draw();
   }
 
   /** Returns when the graphics card, or what stands in for it, is done with the picture. */
@@ -566,8 +354,8 @@ export class View {
   }
   drawNow(): void {
     this.drawRequested = false;
-    this.updateDepth();
-    this.renderer.render(this.scene, this.camera);
+    this.rig.updateDepth();
+    this.renderer.render(this.scene, this.rig.camera);
     this.drawCount++;
     this.onDraw?.();
   }

@@ -12,52 +12,64 @@ const float top = 65535.0 / 65534.0;
 vec3 moved() { return position + uDeform * (uLow + uRange * (frame.xyz * top)); }
 `;
 
-/** Faces. uMode 0: the value of the nodes, 1: of the element, 2: no colouring. uLook as in data/fields.ts: 0 plain, 1 sparse, 2 state. */
+/**
+ * Faces. What is coloured and how is chosen when the shader is compiled, because software rendering pays for every branch:
+ *   PLAIN, SPARSE or STATE   the looks of data/fields.ts; none of them: the colours of the parts alone
+ *   ELEMENT                  the value is of the element (flat), otherwise of the nodes (smooth)
+ */
 export const faceVertex = /* glsl */ `${common}
-in float part;
+in vec3 base;          // colour of the part
 uniform vec2 uValue;   // low and range of the quanta
 out vec3 vView;
-out float vSmooth, vGap;
-flat out float vFlat, vPart;
+flat out vec3 vBase;
+#ifdef ELEMENT
+flat out vec2 vValue;
+#else
+out vec2 vValue;       // the value, and 1 where there is none
+#endif
 void main() {
   vec4 view = modelViewMatrix * vec4(moved(), 1.0);
   vView = view.xyz;
   gl_Position = projectionMatrix * view;
-  vGap = frame.w > 65534.5 / 65535.0 ? 1.0 : 0.0;
-  vFlat = vGap > 0.5 ? -1e30 : uValue.x + uValue.y * frame.w * top;
-  vSmooth = vGap > 0.5 ? 0.0 : vFlat;
-  vPart = part;
+  vBase = base;
+  float none = frame.w > 65534.5 / 65535.0 ? 1.0 : 0.0;
+  vValue = vec2((1.0 - none) * (uValue.x + uValue.y * frame.w * top), none);
 }
 `;
+
+/** Texels of the table of colours. */
+export const COLORS = 1024;
 
 export const faceFragment = /* glsl */ `
 precision highp float;
 precision highp int;
-uniform sampler2D uColors, uParts;
+uniform sampler2D uColors;
 uniform vec2 uShown;   // range of the colours
-uniform int uMode, uLook;
-uniform float uBands;
 in vec3 vView;
-in float vSmooth, vGap;
-flat in float vFlat, vPart;
+flat in vec3 vBase;
+#ifdef ELEMENT
+flat in vec2 vValue;
+#else
+in vec2 vValue;
+#endif
 out vec4 color;
+vec3 shade() {
+  float t = clamp((vValue.x - uShown.x) / max(uShown.y - uShown.x, 1e-30), 0.0, 1.0);
+  return texelFetch(uColors, ivec2(int(t * ${COLORS - 1}.0 + 0.5), 0), 0).rgb;
+}
 void main() {
   vec3 normal = normalize(cross(dFdx(vView), dFdy(vView)));
-  float facing = abs(normal.z);
-  float light = 0.6 + 0.3 * facing + 0.12 * max(0.0, dot(normal, normalize(vec3(0.35, 0.75, 0.55))));
-  vec3 base = texelFetch(uParts, ivec2(int(vPart + 0.5), 0), 0).rgb;
-  bool gap = uMode == 2 || (uMode == 1 ? vFlat < -1e29 : vGap > 0.5);
-  float value = uMode == 1 ? vFlat : vSmooth;
-  if (!gap && uLook == 2) {
-    if (value < 0.5) gap = true;
-    else base = value < 1.5 ? vec3(0.13, 0.45, 0.75) : vec3(0.93, 0.49, 0.13);
-  } else if (!gap) {
-    float t = clamp((value - uShown.x) / max(uShown.y - uShown.x, 1e-30), 0.0, 1.0);
-    if (uBands > 0.0) t = min(floor(t * uBands), uBands - 1.0) / (uBands - 1.0);
-    vec3 shade = texture(uColors, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb;
-    if (uLook == 1) shade = mix(base, shade, smoothstep(0.0, 0.02, value / max(uShown.y, 1e-30)));
-    base = shade;
-  }
+  float light = 0.6 + 0.3 * abs(normal.z) + 0.12 * max(0.0, dot(normal, vec3(0.3522, 0.7547, 0.5535)));
+#if defined(PLAIN)
+  vec3 base = vValue.y > 0.5 ? vBase : shade();
+#elif defined(SPARSE)
+  vec3 base = mix(vBase, shade(), vValue.y > 0.5 ? 0.0 : smoothstep(0.0, 0.02, vValue.x / max(uShown.y, 1e-30)));
+#elif defined(STATE)
+  vec3 slides = vValue.x < 1.5 ? vec3(0.13, 0.45, 0.75) : vec3(0.93, 0.49, 0.13);
+  vec3 base = vValue.y > 0.5 || vValue.x < 0.5 ? vBase : slides;
+#else
+  vec3 base = vBase;
+#endif
   color = vec4(base * light, 1.0);
 }
 `;

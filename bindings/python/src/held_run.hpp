@@ -1,0 +1,40 @@
+// A run as Python holds it, and what the files run*.cpp share.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+
+#include "abut/run.hpp"
+
+namespace abut::python {
+
+/// `going` is read and written under the interpreter's lock: true while a thread is inside without it.
+struct HeldRun {
+  std::atomic<bool> interrupt = false;
+  bool going = false;
+  std::unique_ptr<Run> run;
+  const Vec3* own_velocities = nullptr;  ///< what velocities() shows while nothing is edited
+  const Vec3* own_angular = nullptr;
+
+  [[nodiscard]] Run& idle() const {
+    if (going) throw std::runtime_error("the run goes on in another thread: look at it from a callback, or when it has stopped");
+    return *run;
+  }
+};
+
+using RunClass = pybind11::class_<HeldRun>;
+
+/// A result with the interface it is of.
+struct NamedResult {
+  Id id;
+  InterfaceResult result;
+};
+
+void bind_results(pybind11::module_& m);
+void bind_making(RunClass& run);
+void bind_going(RunClass& run);
+
+}  // namespace abut::python
