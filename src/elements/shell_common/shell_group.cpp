@@ -8,6 +8,7 @@
 
 #include "elements/shell_common/setup.hpp"
 #include "simd/isa.hpp"
+#include "simd/prefetch.hpp"
 
 namespace abut::elements {
 
@@ -183,6 +184,7 @@ void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, Chunk
     return on;
   };
   const int before = count_on();
+  if (block + 1 < static_cast<std::size_t>(layout_.blocks)) simd::prefetch(state + stride, stride);
   run(args, block, block + 1);
   if (in_.step_action == model::StepControl::Action::remove || in_.step_action == model::StepControl::Action::constant) {
     act_on_small_steps(args, block);
