@@ -51,9 +51,9 @@ void Cycle::advance(Sink& sink) {
     booked_work_ += imposed_.book_work(state_);
     walls_.apply(state_);  // 21
     booked_work_ += walls_.work();
-    boundary_.apply(state_);         // 22
-    bodies_.scatter(state_);         // 23
-    accelerometers_.record(state_);  // 24
+    if (held_again_) boundary_.apply(state_);  // 22
+    bodies_.scatter(state_);                   // 23
+    accelerometers_.record(state_);            // 24
     book_interfaces();
     close_balance();  // 25
   }
