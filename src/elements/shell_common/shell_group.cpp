@@ -350,7 +350,7 @@ ElementOutput ShellGroup::output(Index element) const {
   return o;
 }
 
-PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const {
+PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const {
   if (!shares_.valid) {
     shares_.mass.assign(chunks_.nodes().size(), 0.0);
     shares_.inertia.assign(chunks_.nodes().size(), 0.0);
@@ -366,7 +366,7 @@ PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w)
     }
     shares_.valid = true;
   }
-  return shares_.sums(chunks_, v, w);
+  return shares_.sums(chunks_, v, w, pool);
 }
 
 }  // namespace abut::elements
