@@ -19,6 +19,13 @@ std::vector<Index> conditioned_nodes(const model::Model& model) {
 
 void remove(Vec3& v, const Vec3& axis) { v -= dot(v, axis) * axis; }
 
+/// The same for global axes. @param bits bit k: direction k
+void remove(Vec3& v, unsigned bits) {
+  for (int k = 0; k < 3; ++k) {
+    if ((bits >> static_cast<unsigned>(k) & 1U) != 0U) v[k] = 0.0;
+  }
+}
+
 }  // namespace
 
 BoundaryConditions::BoundaryConditions(const model::Model& model, const Axes& axes, const RigidBodies& bodies, const Profile& profile)
@@ -53,6 +60,14 @@ void BoundaryConditions::apply(state::State& state) {
   for (const Index node : nodes_) {
     if (!secondary_too_ && bodies_->body_of(node) != no_index) continue;
     const auto i = static_cast<std::size_t>(node);
+    if (const Index e = plain_entry(node); e != no_index) {
+      const unsigned bits = held_bits(entries_[static_cast<std::size_t>(e)]);
+      remove(state.a[i], bits & 7U);
+      remove(state.v[i], bits & 7U);
+      remove(state.alpha[i], bits >> 3U);
+      remove(state.w[i], bits >> 3U);
+      continue;
+    }
     const Held translation = held(node, false);
     for (std::size_t k = 0; k < static_cast<std::size_t>(translation.count); ++k) {
       remove(state.a[i], translation.axis[k]);

@@ -55,6 +55,12 @@ class BoundaryConditions {
     Index node, skew;
     std::uint8_t bits;
   };  ///< bit k: direction k of 0..5
+  /// Index into entries_ of the only card on a node if that holds global directions, else no_index.
+  [[nodiscard]] Index plain_entry(Index node) const {
+    const Index e = first_[static_cast<std::size_t>(node)];
+    const bool plain = first_[static_cast<std::size_t>(node) + 1] == e + 1 && entries_[static_cast<std::size_t>(e)].skew == no_index;
+    return plain ? e : no_index;
+  }
   [[nodiscard]] std::uint8_t held_bits(const Entry& entry) const {
     return static_cast<std::uint8_t>(entry.bits & ~released_[static_cast<std::size_t>(entry.node)]);
   }

@@ -51,9 +51,9 @@ void Cycle::advance(Sink& sink) {
     booked_work_ += imposed_.book_work(state_);
     walls_.apply(state_);  // 21
     booked_work_ += walls_.work();
-    boundary_.apply(state_);         // 22
-    bodies_.scatter(state_);         // 23
-    accelerometers_.record(state_);  // 24
+    if (held_again_) boundary_.apply(state_);  // 22
+    bodies_.scatter(state_);                   // 23
+    accelerometers_.record(state_);            // 24
     book_interfaces();
     close_balance();  // 25
   }
@@ -98,13 +98,7 @@ void Cycle::internal_forces(StepLimits& limits) {
     removed_energy_ += r.removed_energy;
     if (r.removed > 0) eroded_ = true;
     check_minimum_step(*g, r);
-    if (history_due_) {
-      const elements::PartSums sums = g->part_sums(state_.v, state_.w);
-      part.sums.kinetic_energy += sums.kinetic_energy;
-      part.sums.rotational_energy += sums.rotational_energy;
-      part.sums.mass += sums.mass;
-      part.sums.momentum += sums.momentum;
-    }
+    if (history_due_) { part.sums += g->part_sums(state_.v, state_.w, &pool_); }
     if (r.step < limits.element) {
       using Kind = StepController::Kind;
       static constexpr Kind kinds[] = {Kind::none, Kind::shell, Kind::sh3n, Kind::brick, Kind::tetra};
@@ -125,8 +119,12 @@ void Cycle::contact_forces(StepLimits& limits) {
   }
   const Timer timer(*this, p_contact);
   if (interfaces_.empty()) return;
-  std::fill(state_.f_contact.begin(), state_.f_contact.end(), Vec3{});
-  std::fill(contact_stiffness_.begin(), contact_stiffness_.end(), 0.0);
+  pool_.for_ranges(state_.mass.size(), 4 * node_grain, [this](std::size_t begin, std::size_t end) {
+    std::fill(state_.f_contact.begin() + static_cast<std::ptrdiff_t>(begin), state_.f_contact.begin() + static_cast<std::ptrdiff_t>(end),
+              Vec3{});
+    std::fill(contact_stiffness_.begin() + static_cast<std::ptrdiff_t>(begin),
+              contact_stiffness_.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+  });
   for (init::RunInterface& i : interfaces_) {
     const contact::StepResult r = i.contact.evaluate(host, state_.f_contact, contact_stiffness_);
     InterfaceResult& out = interface_results_[static_cast<std::size_t>(i.model_index)];

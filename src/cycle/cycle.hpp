@@ -116,6 +116,7 @@ class Cycle {
   bool releases_ = false;       // some interface asks for IBC
   bool loaded_ = false;         // there are concentrated or pressure loads; else external forces stay zero
   bool totals_wanted_ = false;  // bodies, walls or mass scaling read or change the total forces or the masses after assembly
+  bool held_again_ = false;     // what comes after the boundary conditions may move what they hold
   bool rotations_ = false;      // some node has inertia, or can be turned by a condition
 
   std::unique_ptr<TimeStep> time_step_;

@@ -1,4 +1,5 @@
-// The passes of a cycle over all nodes, built per instruction set: assembly with accelerations, sums of the balance, integration.
+// The passes of a cycle over all nodes, built per instruction set: assembly with accelerations, limit of the step, sums of the
+// balance, integration.
 //
 // Vectors are #N by 3 doubles. Four nodes are twelve doubles, three registers of four; sums keep twelve accumulators (one per position
 // among the twelve), which are added in a fixed order at the end, so that the register width does not show in the bits.
@@ -43,8 +44,22 @@ struct KineticLeaf {
   double momentum[3] = {0.0, 0.0, 0.0};  ///< m v(n)
 };
 
+struct LimitArgs {
+  const double *mass = nullptr, *stiffness = nullptr;
+  const double *inertia = nullptr, *rotational_stiffness = nullptr;          ///< null: rotations do not count
+  const std::uint8_t *free_translation = nullptr, *free_rotation = nullptr;  ///< 0: the node is held and does not count; null: all count
+};
+
+/// Smallest h^2 = 2 m/K (2 J/Kr) of some nodes (numerics.md 2.2), and the first node that has it, translation before rotation.
+struct LimitLeaf {
+  double square = 1e30;
+  std::int64_t node = -1;
+  bool rotation = false;
+};
+
 struct NodeKernels {
   void (*assemble)(const AssembleArgs&, std::size_t begin, std::size_t end);
+  void (*limit)(const LimitArgs&, std::size_t begin, std::size_t end, LimitLeaf&);
   void (*sum)(const MotionArgs&, std::size_t begin, std::size_t end, KineticLeaf&);
   void (*integrate)(const MotionArgs&, std::size_t begin, std::size_t end);
 };

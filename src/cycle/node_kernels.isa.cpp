@@ -100,6 +100,23 @@ ABUT_INLINE void step(double* a, double* also, const double* b, double s, std::s
   }
 }
 
+/// The step that translations or rotations allow.
+struct Limit {
+  const double *inertia, *stiffness;
+  const std::uint8_t* free;
+  bool rotation;
+  /// Some of four nodes may be below; 0/0 of nodes without mass and stiffness compares false.
+  [[gnu::always_inline]] inline bool may_be_below(std::size_t i, double square) const {
+    return simd::any(Four(2.0) * simd::load<4>(inertia + i) / simd::load<4>(stiffness + i) < Four(square));
+  }
+  [[gnu::always_inline]] inline void look(std::size_t i, LimitLeaf& leaf) const {
+    if (free != nullptr && free[i] == 0) return;
+    if (!(inertia[i] > 0.0)) return;
+    const double square = 2.0 * inertia[i] / stiffness[i];
+    if (square < leaf.square) leaf = {square, static_cast<std::int64_t>(i), rotation};
+  }
+};
+
 }  // namespace
 
 void assemble_nodes(const AssembleArgs& args, std::size_t begin, std::size_t end) {
@@ -131,6 +148,20 @@ void assemble_nodes(const AssembleArgs& args, std::size_t begin, std::size_t end
     args.rotational_stiffness[i] = moment.r[3];
     if (args.m != nullptr) store3(args.m + 3 * i, m);
     store3(args.alpha + 3 * i, inertia > 0.0 ? m / Four(inertia) : zero);
+  }
+}
+
+void limit_nodes(const LimitArgs& args, std::size_t begin, std::size_t end, LimitLeaf& leaf) {
+  const bool rotations = args.inertia != nullptr;
+  const Limit translation{args.mass, args.stiffness, args.free_translation, false};
+  const Limit rotation{args.inertia, args.rotational_stiffness, args.free_rotation, true};
+  for (std::size_t i = begin; i < end; i += 4) {
+    const bool four = i + 4 <= end;
+    if (four && !translation.may_be_below(i, leaf.square) && !(rotations && rotation.may_be_below(i, leaf.square))) continue;
+    for (std::size_t k = i; k < (four ? i + 4 : end); ++k) {
+      translation.look(k, leaf);
+      if (rotations) rotation.look(k, leaf);
+    }
   }
 }
 

@@ -61,6 +61,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
                                           std::move(free_translation), std::move(free_rotation));
   loaded_ = !model.concentrated_loads.empty() || !model.pressure_loads.empty();
   totals_wanted_ = !model.rigid_bodies.empty() || !model.rigid_walls.empty() || model.controls.mass_scaling;
+  held_again_ = !model.imposed_motions.empty() || !model.rigid_walls.empty();
   rotations_ = !model.rigid_bodies.empty() || !model.imposed_motions.empty() ||
                std::any_of(state_.inertia.begin(), state_.inertia.end(), [](double j) { return j > 0.0; });
   ledger_ = Ledger(rotations_);

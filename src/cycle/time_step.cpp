@@ -14,7 +14,7 @@ constexpr double scaling_margin = 1.00001;
 }  // namespace
 
 TimeStep::Smallest& TimeStep::Smallest::operator+=(const Smallest& b) {
-  if (b.step < step) *this = b;
+  if (b.square < square) *this = b;
   return *this;
 }
 
@@ -44,20 +44,19 @@ TimeStep::TimeStep(const model::Model& model, const Profile& profile, bool has_t
 }
 
 TimeStep::Smallest TimeStep::nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool) {
+  LimitArgs args;
+  args.mass = s.mass.data();
+  args.stiffness = s.stiffness.data();
+  args.inertia = rotations ? s.inertia.data() : nullptr;
+  args.rotational_stiffness = s.rotational_stiffness.data();
   // All nodes are free for the reference; only those that can move give a true limit.
   const bool all = profile_.system_step == Profile::SystemStep::reference;
+  args.free_translation = all ? nullptr : free_translation_.data();
+  args.free_rotation = all ? nullptr : free_rotation_.data();
+  const NodeKernels& kernels = node_kernels();
   return parallel::ordered_sum(s.mass.size(), leaves_, pool, [&](std::size_t begin, std::size_t end) {
     Smallest smallest;
-    // Most nodes are ruled out without a division: 2 m/K < h^2 only if 2 m < 1.000001 h^2 K, whatever the roundings.
-    const auto look = [&smallest](double inertia, double stiffness, std::size_t i, bool rotation) {
-      if (!(2.0 * inertia < 1.000001 * smallest.step * stiffness) || !(inertia > 0.0)) return;
-      const double h2 = 2.0 * inertia / stiffness;
-      if (h2 < smallest.step) smallest = {h2, static_cast<Index>(i), rotation};
-    };
-    for (std::size_t i = begin; i < end; ++i) {
-      if (all || free_translation_[i] != 0) look(s.mass[i], s.stiffness[i], i, false);
-      if (rotations && (all || free_rotation_[i] != 0)) look(s.inertia[i], s.rotational_stiffness[i], i, true);
-    }
+    kernels.limit(args, begin, end, smallest);
     return smallest;
   });
 }
@@ -109,10 +108,10 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
   if (!nodal_only) take(limits.element, limits.element_controller);
   if (nodal_only || two_sided_) {
     const Smallest smallest = nodal(s, nodal_only, pool);
-    if (smallest.node != no_index) {
+    if (smallest.node >= 0) {
       const auto i = static_cast<std::size_t>(smallest.node);
       const bool contact = !smallest.rotation && contact_stiffness[i] > 0.5 * s.stiffness[i];
-      take(nodal_scale_ * std::sqrt(smallest.step),
+      take(nodal_scale_ * std::sqrt(smallest.square),
            {contact ? StepController::Kind::interface : StepController::Kind::node, model_.node_id[i]});
     }
   }

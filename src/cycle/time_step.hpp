@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/profile.hpp"
+#include "cycle/node_kernels.hpp"
 #include "cycle/sink.hpp"
 #include "model/model.hpp"
 #include "parallel/thread_pool.hpp"
@@ -40,10 +41,7 @@ class TimeStep {
   void persist(state::Archive& a);
 
  private:
-  struct Smallest {
-    double step = 1e30;
-    Index node = no_index;
-    bool rotation = false;
+  struct Smallest : LimitLeaf {
     Smallest& operator+=(const Smallest& b);
   };
   [[nodiscard]] Smallest nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool);

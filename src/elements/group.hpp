@@ -69,6 +69,13 @@ struct ShellLayer {
 struct PartSums {
   double kinetic_energy = 0.0, rotational_energy = 0.0, mass = 0.0;
   Vec3 momentum;
+  PartSums& operator+=(const PartSums& b) {
+    kinetic_energy += b.kinetic_energy;
+    rotational_energy += b.rotational_energy;
+    mass += b.mass;
+    momentum += b.momentum;
+    return *this;
+  }
 };
 
 /// Layout of a group's slots: entry of node k (of nodes_per_element), component c (of components), element e = 8 b + l:
@@ -133,7 +140,9 @@ class Group {
   [[nodiscard]] virtual bool active(Index element) const = 0;
   /// Current thickness of a shell (contact updates use it); 0 for solids.
   [[nodiscard]] virtual double thickness(Index element) const = 0;
-  [[nodiscard]] virtual PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const = 0;
+  /// @param pool  null: by the calling thread; the same bits either way
+  [[nodiscard]] virtual PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w,
+                                           parallel::ThreadPool* pool = nullptr) const = 0;
   [[nodiscard]] virtual double element_mass(Index element) const = 0;
   [[nodiscard]] virtual double element_energy(Index element) const = 0;  ///< internal + hourglass
 
@@ -146,7 +155,8 @@ class Group {
   struct NodalShares {
     bool valid = false;
     std::vector<double> mass, inertia;
-    [[nodiscard]] PartSums sums(const ChunkTable& chunks, std::span<const Vec3> v, std::span<const Vec3> w) const;
+    std::vector<PartSums> leaves;
+    [[nodiscard]] PartSums sums(const ChunkTable& chunks, std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool);
   };
 
   Index part_ = no_index;

@@ -47,7 +47,7 @@ class InertGroup final : public Group {
   [[nodiscard]] double thickness(Index element) const override {
     return data_.thickness.empty() ? 0.0 : data_.thickness[static_cast<std::size_t>(element)];
   }
-  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const override {
+  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* /*pool*/) const override {
     PartSums sums;
     for (Index e = 0; e < size(); ++e) {
       if (live_[static_cast<std::size_t>(e)] == 0) continue;

@@ -98,7 +98,9 @@ Array* add_array(vtkDataSetAttributes* attributes, const std::string& name, int 
 /// Cells are made once and again whenever elements have been deleted; the arrays are refilled for each state.
 struct Animation::Grid {
   explicit Grid(const cycle::Snapshot& first);
-  [[nodiscard]] std::string serialise(const cycle::Snapshot& now);
+  void take(const cycle::Snapshot& now);
+  /// The state that was taken, as the content of a file.
+  [[nodiscard]] std::string encoded() const;
 
  private:
   struct Cell {
@@ -228,7 +230,7 @@ void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
   }
 }
 
-std::string Animation::Grid::serialise(const cycle::Snapshot& now) {
+void Animation::Grid::take(const cycle::Snapshot& now) {
   time_->SetValue(0, now.state->times.t);
   cycle_->SetValue(0, now.state->times.cycle);
   fill_points(now);
@@ -239,6 +241,9 @@ std::string Animation::Grid::serialise(const cycle::Snapshot& now) {
     for (int i = 0; i < data->GetNumberOfArrays(); ++i) data->GetAbstractArray(i)->Modified();
   }
   grid_->Modified();
+}
+
+std::string Animation::Grid::encoded() const {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid_);
   writer->SetDataModeToAppended();
@@ -246,7 +251,7 @@ std::string Animation::Grid::serialise(const cycle::Snapshot& now) {
   writer->SetCompressorTypeToZLib();
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn();
-  if (writer->Write() == 0) throw RunError(fmt::format("cannot encode the animation state at time {}", now.state->times.t));
+  if (writer->Write() == 0) throw RunError(fmt::format("cannot encode the animation state at time {}", time_->GetValue(0)));
   return writer->GetOutputString();
 }
 
@@ -259,7 +264,7 @@ void Animation::begin(const cycle::Snapshot& first) {
   std::error_code ignored;
   if (opening_ == Opening::fresh) std::filesystem::remove(folder_.animation_index(), ignored);
   if (opening_ == Opening::fresh) std::filesystem::remove(folder_.contact_surfaces(), ignored);
-  if (opening_ == Opening::resumed && !times_.empty()) write_index();
+  if (opening_ == Opening::resumed && !times_.empty()) write_index(times_);
   std::set<std::filesystem::path> kept;
   for (std::size_t k = 0; k < times_.size(); ++k) kept.insert(folder_.animation_state(static_cast<int>(k)).filename());
   std::vector<std::filesystem::path> stale;
@@ -277,27 +282,39 @@ void Animation::cycle(const cycle::Snapshot& now) {
     create_folder(folder_.animation_folder());
     if (!now.model->interfaces.empty()) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*now.model));
   }
-  write_atomically(folder_.animation_state(static_cast<int>(times_.size())), grid_->serialise(now));
+  wait_for_writer();
+  grid_->take(now);
   times_.push_back(now.state->times.t);
-  write_index();
+  writer_ = std::async(std::launch::async, [this, times = times_] {
+    write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid_->encoded());
+    write_index(times);
+  });
 }
 
-void Animation::write_index() const {
+void Animation::wait_for_writer() {
+  if (writer_.valid()) writer_.get();
+}
+
+void Animation::write_index(const std::vector<double>& times) const {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
-  for (std::size_t k = 0; k < times_.size(); ++k) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
     const std::filesystem::path file = folder_.animation_state(static_cast<int>(k)).lexically_relative(folder_.directory);
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times_[k], xml_escaped(file.generic_string()));
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times[k], xml_escaped(file.generic_string()));
   }
   text += "  </Collection>\n</VTKFile>\n";
   write_atomically(folder_.animation_index(), text);
 }
 
 void Animation::persist(state::Archive& a) {
+  wait_for_writer();
   a.growing(times_);
   if (a.loading()) return;
   for (; on_disk_ < times_.size(); ++on_disk_) sync_file(folder_.animation_state(static_cast<int>(on_disk_)));
 }
 
-void Animation::end(const cycle::Outcome&) { grid_.reset(); }
+void Animation::end(const cycle::Outcome&) {
+  wait_for_writer();
+  grid_.reset();
+}
 
 }  // namespace abut::output

@@ -1,6 +1,7 @@
 // Animation: one VTK unstructured grid per state (NAME_anim/NAME_00000.vtu, ...) and the index NAME.pvd that ParaView opens.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@ namespace abut::output {
 
 /// Writes a state whenever `animation_due`, then the index; each file appears under its name only when it is complete, so
 /// whatever the index names can be read, also after the run was killed.
+/// A state is copied in cycle() and compressed and written by a thread of its own while the run goes on; the next state, a checkpoint and
+/// the end wait for it. A failure to write is thrown there.
 ///
 /// Points are all nodes at their positions x(t) (double precision; the initial ones are points - displacement). Cells are
 /// all elements in the order shells, 3-node shells, bricks, tetrahedra, each by id; degenerate bricks become wedges,
@@ -30,14 +33,16 @@ class Animation final : public cycle::Sink {
   void persist(state::Archive& a) override;
 
  private:
-  void write_index() const;
+  void write_index(const std::vector<double>& times) const;
+  void wait_for_writer();
 
   struct Grid;
   RunFolder folder_;
   Opening opening_;
   std::size_t on_disk_ = 0;  ///< states that a checkpoint has brought to the disk
   std::unique_ptr<Grid> grid_;
-  std::vector<double> times_;  ///< of the states written so far
+  std::vector<double> times_;  ///< of the states so far
+  std::future<void> writer_;   ///< of the last state; last member: it uses the others
 };
 
 }  // namespace abut::output

@@ -14,6 +14,7 @@ constexpr std::int64_t cycles_between_looks = 50;
 constexpr int looks = 100;             // per run
 constexpr double deep_share = 0.95;    // of the gap
 constexpr double energy_share = 0.02;  // of the largest energy term
+constexpr double moved_share = 0.1;    // of a facet: what turns a facet by more than some degrees moves a node by more
 
 double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x) {
   double sum = 0.0;
@@ -22,6 +23,23 @@ double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x
     sum += std::sqrt(0.5 * norm(cross(at(2) - at(0), (f.is_triangle() ? at(2) : at(3)) - at(1))));
   }
   return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
+}
+
+std::vector<Index> nodes_of(const contact::InspectionInput& input) {
+  std::vector<Index> nodes;
+  for (const contact::InspectedSide& side : input.side) {
+    for (const contact::Facet& f : side.facets) nodes.insert(nodes.end(), f.node.begin(), f.node.end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<Vec3> positions_of(std::span<const Index> nodes, std::span<const Vec3> x) {
+  std::vector<Vec3> out;
+  out.reserve(nodes.size());
+  for (const Index n : nodes) out.push_back(x[static_cast<std::size_t>(n)]);
+  return out;
 }
 
 std::string counted(std::size_t nodes) { return nodes == 1 ? "1 node" : fmt::format("{} nodes", nodes); }
@@ -72,8 +90,10 @@ void ContactWatch::begin(const cycle::Snapshot& first) {
     Watched& w = interfaces_[i];
     if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
     w.geometry = std::make_unique<init::InspectedInterface>(*first.model, card, x);
-    if (loaded_) continue;
     const contact::InspectionInput input = w.geometry->input(x);
+    w.nodes = nodes_of(input);
+    if (loaded_) continue;
+    w.seen = positions_of(w.nodes, x);
     const auto facing = contact::facing(input);
     w.size = 1e300;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -88,6 +108,7 @@ void ContactWatch::persist(state::Archive& a) {
   a.each_growing(interfaces_, [&a](Watched& w) {
     a(w.facing_at_start);
     a(w.size);
+    a.growing(w.seen);
     for (bool* said : {&w.turned, &w.deep, &w.made, &w.crossed, &w.lost}) a(*said);
   });
   a(next_look_);
@@ -147,6 +168,15 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
   if (now.state->times.t >= next_look_ && now.state->times.cycle >= next_look_cycle_) look(now);
 }
 
+bool ContactWatch::has_moved(const Watched& w, std::span<const Vec3> x) {
+  if (w.seen.size() != w.nodes.size()) return true;
+  const double limit = moved_share * w.size;
+  for (std::size_t k = 0; k < w.nodes.size(); ++k) {
+    if (squared_norm(x[static_cast<std::size_t>(w.nodes[k])] - w.seen[k]) > limit * limit) return true;
+  }
+  return false;
+}
+
 void ContactWatch::look(const cycle::Snapshot& now) {
   const double t = now.state->times.t;
   next_look_ = std::max(t, next_look_ + now.model->controls.t_end / looks);
@@ -158,6 +188,8 @@ void ContactWatch::look(const cycle::Snapshot& now) {
     const model::Interface& card = now.model->interfaces[i];
     // While nodes are in contact the surfaces feel each other, whatever small overlaps make of the facing rule.
     if (t < card.t_start || t > card.t_stop || now.interfaces[i].in_contact > 0) continue;
+    if (!has_moved(w, x)) continue;
+    w.seen = positions_of(w.nodes, x);
     const auto facing = contact::facing(w.geometry->input(x));
     for (std::size_t k = 0; k < 2; ++k) {
       if (facing[k].distance > card.gap + w.size || !(w.facing_at_start[k] >= 0.5) || !(facing[k].fraction() < 0.5)) continue;

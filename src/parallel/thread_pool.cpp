@@ -21,10 +21,14 @@ void pause() {
 
 }  // namespace
 
-// A loop is handed out by raising `generation` and is over when `pending` has fallen to zero. Both are waited for awake for a while
-// (the loops of a cycle follow each other within microseconds), then asleep: whoever changes them takes the mutex before it wakes
-// others, so that nobody falls asleep over a change.
+// A loop is cut into some pieces per thread, and whoever is free takes the next one: a thread that the system has sent away, or whose
+// pieces take longer, holds up no more than a piece. `left` counts the pieces that nobody has taken; the loop is over when `unfinished`
+// has fallen to zero. While a piece is unfinished the loop's data stay, so a thread reads them after it has taken a piece, never before.
+// Both counters are waited for awake for a while (the loops of a cycle follow each other within microseconds), then asleep: whoever changes
+// them takes the mutex before it wakes others, so that nobody falls asleep over a change.
 struct ThreadPool::Impl {
+  static constexpr std::size_t pieces_per_thread = 4;
+
   std::vector<std::thread> workers;
   int patience = 0;  // turns of waiting awake
   std::mutex mutex;
@@ -33,9 +37,9 @@ struct ThreadPool::Impl {
   Call call = nullptr;
   const void* body = nullptr;
   std::size_t count = 0;
-  std::size_t parts = 0;
-  std::atomic<std::uint64_t> generation{0};
-  std::atomic<std::size_t> pending{0};
+  std::size_t pieces = 0;
+  std::atomic<std::size_t> left{0};
+  std::atomic<std::size_t> unfinished{0};
   std::atomic<bool> quit{false};
   std::exception_ptr error;
 
@@ -49,10 +53,24 @@ struct ThreadPool::Impl {
     signal.wait(lock, ready);
   }
 
-  void run_part(std::size_t part) {
+  /// Takes pieces and runs them until none is left.
+  void run_pieces() {
+    std::size_t n = left.load(std::memory_order_acquire);
+    while (n > 0) {
+      if (!left.compare_exchange_weak(n, n - 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
+      run_piece(pieces - n);
+      if (unfinished.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+        const std::lock_guard lock(mutex);
+        done.notify_one();
+      }
+      n = left.load(std::memory_order_acquire);
+    }
+  }
+
+  void run_piece(std::size_t piece) {
     try {
-      const std::size_t begin = count * part / parts;
-      const std::size_t end = count * (part + 1) / parts;
+      const std::size_t begin = count * piece / pieces;
+      const std::size_t end = count * (piece + 1) / pieces;
       if (begin < end) call(body, begin, end);
     } catch (...) {
       const std::lock_guard lock(mutex);
@@ -60,17 +78,11 @@ struct ThreadPool::Impl {
     }
   }
 
-  void work(std::size_t self) {
-    std::uint64_t seen = 0;
+  void work() {
     for (;;) {
-      wait(start, [&] { return quit.load(std::memory_order_acquire) || generation.load(std::memory_order_acquire) != seen; });
+      wait(start, [this] { return quit.load(std::memory_order_acquire) || left.load(std::memory_order_acquire) > 0; });
       if (quit.load(std::memory_order_acquire)) return;
-      ++seen;
-      if (self < parts) run_part(self);
-      if (pending.fetch_sub(1, std::memory_order_acq_rel) == 1) {
-        const std::lock_guard lock(mutex);
-        done.notify_one();
-      }
+      run_pieces();
     }
   }
 };
@@ -79,7 +91,7 @@ ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>()) {
   // About 50 us. With more threads than processors whoever waits awake keeps others from working.
   if (threads <= static_cast<int>(std::thread::hardware_concurrency())) impl_->patience = 1000;
   for (int i = 1; i < threads; ++i) {
-    impl_->workers.emplace_back([this, i] { impl_->work(static_cast<std::size_t>(i)); });
+    impl_->workers.emplace_back([this] { impl_->work(); });
   }
 }
 
@@ -97,24 +109,23 @@ int ThreadPool::threads() const { return static_cast<int>(impl_->workers.size())
 void ThreadPool::run(std::size_t count, std::size_t grain, Call call, const void* body) {
   if (count == 0) return;
   const std::size_t most = (count + std::max<std::size_t>(grain, 1) - 1) / std::max<std::size_t>(grain, 1);
-  const std::size_t parts = std::min<std::size_t>(most, impl_->workers.size() + 1);
-  if (parts <= 1) {
+  if (most <= 1 || impl_->workers.empty()) {
     call(body, 0, count);
     return;
   }
   impl_->call = call;
   impl_->body = body;
   impl_->count = count;
-  impl_->parts = parts;
+  impl_->pieces = std::min(most, Impl::pieces_per_thread * (impl_->workers.size() + 1));
   impl_->error = nullptr;
-  impl_->pending.store(impl_->workers.size(), std::memory_order_relaxed);
+  impl_->unfinished.store(impl_->pieces, std::memory_order_relaxed);
   {
     const std::lock_guard lock(impl_->mutex);
-    impl_->generation.fetch_add(1, std::memory_order_acq_rel);
+    impl_->left.store(impl_->pieces, std::memory_order_release);
   }
   impl_->start.notify_all();
-  impl_->run_part(0);
-  impl_->wait(impl_->done, [this] { return impl_->pending.load(std::memory_order_acquire) == 0; });
+  impl_->run_pieces();
+  impl_->wait(impl_->done, [this] { return impl_->unfinished.load(std::memory_order_acquire) == 0; });
   if (impl_->error) std::rethrow_exception(impl_->error);
 }
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "elements/solid/solid_kernel.hpp"
+#include "simd/prefetch.hpp"
 
 namespace abut::elements {
 
@@ -263,7 +264,9 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
 template <class R>
 ABUT_INLINE void brick_step(const SolidTask& task) {
   ChunkSums sums;
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(task.config->fields) * 8;
   for (std::int32_t block = task.first; block < task.last; ++block) {
+    if (block + 1 < task.last) simd::prefetch(task.state + (block + 1) * stride, static_cast<std::size_t>(stride));
     for (int lane = 0; lane < 8; lane += simd::NumberTraits<R>::width) {
       if (task.config->corotational) {
         brick_lanes<true, R>(task, block, lane, sums);

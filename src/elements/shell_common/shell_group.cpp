@@ -8,6 +8,7 @@
 
 #include "elements/shell_common/setup.hpp"
 #include "simd/isa.hpp"
+#include "simd/prefetch.hpp"
 
 namespace abut::elements {
 
@@ -183,6 +184,7 @@ void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, Chunk
     return on;
   };
   const int before = count_on();
+  if (block + 1 < static_cast<std::size_t>(layout_.blocks)) simd::prefetch(state + stride, stride);
   run(args, block, block + 1);
   if (in_.step_action == model::StepControl::Action::remove || in_.step_action == model::StepControl::Action::constant) {
     act_on_small_steps(args, block);
@@ -348,7 +350,7 @@ ElementOutput ShellGroup::output(Index element) const {
   return o;
 }
 
-PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const {
+PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const {
   if (!shares_.valid) {
     shares_.mass.assign(chunks_.nodes().size(), 0.0);
     shares_.inertia.assign(chunks_.nodes().size(), 0.0);
@@ -364,7 +366,7 @@ PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w)
     }
     shares_.valid = true;
   }
-  return shares_.sums(chunks_, v, w);
+  return shares_.sums(chunks_, v, w, pool);
 }
 
 }  // namespace abut::elements

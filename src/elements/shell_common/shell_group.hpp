@@ -39,7 +39,7 @@ class ShellGroup : public Group {
   [[nodiscard]] std::array<double, 6> layer_stress(Index element, ShellLayer layer) const final;
   [[nodiscard]] bool active(Index element) const final;
   [[nodiscard]] double thickness(Index element) const final;
-  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const final;
+  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const final;
   [[nodiscard]] double element_mass(Index element) const final;
   [[nodiscard]] double element_energy(Index element) const final;
   [[nodiscard]] std::vector<std::span<double>> history() final;

@@ -280,7 +280,7 @@ ElementOutput SolidGroup::output(Index element) const {
 
 bool SolidGroup::active(Index element) const { return at(element, f_off) > 0.0; }
 
-PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w) const {
+PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const {
   // rho^n V_0 of the reference's small strain changes from cycle to cycle.
   if (!shares_.valid || reference_part_mass_) {
     shares_.mass.assign(chunks_.nodes().size(), 0.0);
@@ -292,7 +292,7 @@ PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w)
     }
     shares_.valid = true;
   }
-  return shares_.sums(chunks_, v, w);
+  return shares_.sums(chunks_, v, w, pool);
 }
 
 double SolidGroup::element_mass(Index element) const { return at(element, f_mass); }
