@@ -45,7 +45,7 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   ClosestPoint closest;
   Index facet = no_index;
   const double clock = candidates.clock();
-  const bool wide = held.strip > border_strip;  // the lists' distances are those of the usual strips: none is left out
+  const bool wide = held.strip > border_strip;  // the lists' distances are those of the usual strips
   double least = best_distance;
   const auto try_entry = [&](Candidates::Entry& entry) {
     const ClosestPoint other = closest_point(extended(surface, entry.facet, held.strip), x);
@@ -69,7 +69,8 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
     if (first != nullptr) try_entry(*first);
   }
   for (Candidates::Entry& entry : entries) {
-    if ((!wide && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
+    const bool known = !wide || surface.borders(entry.facet) == 0;
+    if ((known && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
         !surface.active(entry.facet))
       continue;
     try_entry(entry);
