@@ -9,7 +9,8 @@
 namespace abut::contact {
 namespace {
 
-constexpr Index group = 128;  // nodes handled together (numerics.md 7.3.1)
+constexpr Index group = 128;           // nodes handled together (numerics.md 7.3.1)
+constexpr double unknown_due = -1e300;  // of a group in which some node is awake
 
 // Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
 // after birth, which begins and ends at no speed.
@@ -117,7 +118,7 @@ void Pass::limit_depths() {
   }
 }
 
-void Pass::search(const Side& held, const Side& surface, const SideLoads& surface_loads) {
+void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
   if (!closest()) {
     incremental_.update(held, surface, tracked_, options_.gap);
     return;
@@ -135,17 +136,12 @@ void Pass::search(const Side& held, const Side& surface, const SideLoads& surfac
         s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
     return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
   };
-  candidates_.update(held, surface, reach_of, skin_, stale_);
+  const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_);
+  if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);
   stale_ = false;
-  surface_step_ = 0.0;
-  mean_step_ = {};
-  if (surface.node_count() == 0) return;
-  for (std::size_t s = 0; s < surface.x().size(); ++s) mean_step_ += surface.x()[s] - surface_loads.x_before[s];
-  mean_step_ = mean_step_ / static_cast<double>(surface.x().size());
-  for (std::size_t s = 0; s < surface.x().size(); ++s) {
-    surface_step_ = std::max(surface_step_, squared_norm(surface.x()[s] - surface_loads.x_before[s] - mean_step_));
-  }
-  surface_step_ = std::sqrt(surface_step_);
+  mean_step_ = motion.mean;
+  held_step_ = motion.held;
+  surface_step_ = motion.surface;
 }
 
 bool Pass::asleep(const Scene& scene, Index i) const {
@@ -155,13 +151,20 @@ bool Pass::asleep(const Scene& scene, Index i) const {
   return far(scene.host, scene.held, scene.held_loads, i);
 }
 
-void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touches, GroupSums& sums) {
+bool Pass::group_asleep(const Scene& scene, std::size_t number) const {
+  if (!closest() || scene.host.dt <= 0.0 || group_due_[number] == unknown_due) return false;
+  return std::max(held_step_, coming_step_) < clearance(group_due_[number]);
+}
+
+void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, GroupSums& sums) {
   const auto& [host, held, surface, held_loads, surface_loads] = scene;
   const bool anchors = options_.rules.reference_friction;
+  const Index first = static_cast<Index>(number) * group;
   sums.totals = {};
   sums.reactions.clear();
   for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
   sums.equals.clear();
+  if (group_asleep(scene, number)) return;
   std::array<Index, at(group)> nodes;
   std::size_t count = 0;
   bool any = false;
@@ -213,15 +216,26 @@ void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touc
       quiet_[at(i)] = nothing ? nothing_listed : in_front;
     }
   }
+  if (!closest()) return;
+  double due = 1e300;
+  for (Index i = first; i < last && due != unknown_due; ++i) {
+    due = quiet_[at(i)] == awake ? unknown_due : std::min(due, candidates_.nearest_due(i));
+  }
+  group_due_[number] = due;
 }
 
 PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads) {
   const Scene scene{host, held, surface, held_loads, surface_loads};
   keep_ = options_.start_duration > 0.0 ? kept_share(options_, host.time - host.dt, host.time) : 1.0;
   groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
+  if (closest()) {
+    double largest = 0.0;
+    for (const Index n : held.nodes()) largest = std::max(largest, squared_norm(host.dt * host.v[at(n)] - mean_step_));
+    coming_step_ = std::sqrt(largest);
+  }
   const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;
-    for (std::size_t g = begin; g < end; ++g) evaluate_group(scene, static_cast<Index>(g) * group, touches, groups_[g]);
+    for (std::size_t g = begin; g < end; ++g) evaluate_group(scene, g, touches, groups_[g]);
   };
   if (executor_) {
     executor_(groups_.size(), evaluate_groups);

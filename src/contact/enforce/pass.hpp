@@ -1,6 +1,7 @@
 // One pass: the nodes of one side held against the facets of the other.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -83,7 +84,8 @@ class Pass {
 
   /// Once, on the first geometry: depth limits, nearest nodes, anchors of contacts that exist at the start.
   void start(const Side& held, const Side& surface);
-  void search(const Side& held, const Side& surface, const SideLoads& surface_loads);
+  /// @param motion  since the last search
+  void search(const Side& held, const Side& surface, const Motion& motion);
   PassTotals evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads);
   /// Outside the time window: contacts end.
   PassTotals rest();
@@ -176,8 +178,10 @@ class Pass {
   Executor executor_;
   Candidates candidates_;
   IncrementalSearch incremental_;
-  double surface_step_ = 0.0;  ///< largest motion of the surface in the last step, relative to its mean
+  double held_step_ = 0.0, surface_step_ = 0.0;  ///< largest motions in the last step, relative to the surface's mean
+  double coming_step_ = 0.0;                     ///< upper bound of those of held nodes in the coming one
   Vec3 mean_step_;
+  std::vector<double> group_due_;  ///< per group of nodes: smallest nearest_due() where all are quiet, else unknown_due
 
   [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const;
   /// How much of a node's offset the gradual start gives back to its gap in this step.
@@ -202,7 +206,13 @@ class Pass {
   /// True while the node cannot touch, now or in the coming step.
   [[nodiscard]] bool far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const;
   [[nodiscard]] bool asleep(const Scene& scene, Index i) const;
-  void evaluate_group(const Scene& scene, Index first, std::span<Touch> touches, GroupSums& sums);
+  /// The same for all nodes of a group at once, or false.
+  [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
+  /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
+  [[nodiscard]] double clearance(double due) const {
+    return 0.25 * std::min(smallest_depth_, due - candidates_.clock() - options_.gap) - surface_step_;
+  }
+  void evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, GroupSums& sums);
   void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                    GroupSums& sums);
   [[nodiscard]] Vec3 rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion,

@@ -24,7 +24,7 @@ Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
 
 bool Pass::far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
   // Neither the motion of the last step nor that of the coming one may come near a quarter of the way.
-  const double clear = 0.25 * std::min(smallest_depth_, candidates_.nearest_due(i) - candidates_.clock() - options_.gap) - surface_step_;
+  const double clear = clearance(candidates_.nearest_due(i));
   if (clear <= 0.0) return false;
   const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
   const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/search/box_tree.hpp"
+#include "contact/search/motion.hpp"
 #include "contact/surface/side.hpp"
 
 namespace abut::contact {
@@ -22,9 +23,10 @@ class Candidates {
   };
 
   /// Rebuilds the lists when the motion since the last build exceeds `skin` (or `force` is set).
-  /// Motion common to the whole surface does not count: it is measured relative to the surface's mean displacement.
+  /// @param motion  since the last update
   /// @param reach  #held, distance within which facets matter (< 0: this node needs none)
-  void update(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, bool force);
+  /// @return true when the lists are new
+  bool update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin, bool force);
 
   /// False before the first update().
   [[nodiscard]] bool made() const { return !first_.empty(); }
@@ -56,12 +58,9 @@ class Candidates {
   std::vector<Index> first_;
   std::vector<Entry> entries_;
   std::vector<double> nearest_;
-  std::vector<Vec3> held_last_, surface_last_;  ///< positions at the last update
-  Vec3 shift_;                                  ///< mean motion of the surface since the lists were made
+  Vec3 shift_;  ///< mean motion of the surface since the lists were made
   double slack_ = 0.0;
   double clock_ = 0.0;
-
-  void advance(const Side& held, const Side& surface);
 };
 
 /// Box of a facet with its strips.
