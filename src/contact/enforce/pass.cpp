@@ -156,64 +156,69 @@ bool Pass::group_asleep(const Scene& scene, std::size_t number) const {
   return std::max(held_step_, coming_step_) < clearance(group_due_[number]);
 }
 
-void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, GroupSums& sums) {
+void Pass::measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums) {
   const auto& [host, held, surface, held_loads, surface_loads] = scene;
-  const bool anchors = options_.rules.reference_friction;
+  next_[at(i)] = state_[at(i)];
+  if (closest()) {
+    measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
+  } else {
+    measure_plain(held, surface, i, touch);
+  }
+}
+
+// Nodes in contact as well as others: those that are ordinary by the batch, the rest one by one. All sums run in the order of the nodes.
+void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, HeldBatch& batch, GroupSums& sums) {
+  const auto& [host, held, surface, held_loads, surface_loads] = scene;
   const Index first = static_cast<Index>(number) * group;
+  const Index last = std::min(first + group, held.node_count());
   sums.totals = {};
   sums.reactions.clear();
   for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
   sums.equals.clear();
   if (group_asleep(scene, number)) return;
+  constexpr int none = -1;
+  const bool batches = in_batches(host);
+  const Index block = batches ? HeldBatch::size : group;
   std::array<Index, at(group)> nodes;
-  std::size_t count = 0;
-  bool any = false;
-  const Index last = std::min(first + group, held.node_count());
-  for (Index i = first; i < last; ++i) {
-    if (asleep(scene, i)) continue;
-    Touch& touch = touches[count];
-    nodes[count++] = i;
-    next_[at(i)] = state_[at(i)];
-    if (closest()) {
-      measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
-    } else {
-      measure_plain(held, surface, i, touch);
-    }
-    any = any || touch.contact;
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index i = nodes[k];
-    Touch& touch = touches[k];
-    // 7.4.3: anchors are looked at only in groups in which somebody touches.
-    finish_node(host, held, surface, held_loads, i, touch, any, sums);
-    NodeState& after = next_[at(i)];
-    quiet_[at(i)] = awake;
-    if (touch.contact) continue;
-    if (touch.lost) sums.lost.push_back(held.nodes()[at(i)]);
-    const NodeState& before = state_[at(i)];
-    after.held = 0;
-    // The last damping force acts over half of the step that ends the contact.
-    if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
-    after.damping = 0.0;
-    sums.totals.started += 0.5 * before.force * growth(before);
-    after.force = 0.0;
-    after.rate = 0.0;
-    after.acceleration = 0.0;
-    if (!anchors || any) {
-      // The limit falls to zero: what was stored slips away.
-      if (before.tangential_stiffness > 0.0) {
-        sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
+  std::array<int, at(group)> lane;
+  for (Index begin = first; begin < last; begin += block) {
+    std::size_t count = 0;
+    bool any = false;
+    batch.count = 0;
+    for (Index i = begin; i < std::min(begin + block, last); ++i) {
+      if (asleep(scene, i)) continue;
+      lane[count] = none;
+      if (batches && may_be_ordinary(scene, i)) {
+        lane[count] = batch.count;
+        put_in(scene, i, batch);
+      } else {
+        measure(scene, i, touches[count], sums);
+        any = any || touches[count].contact;
       }
-      after.anchored = 0;
-      after.slip = {};
-      if (!anchors) after.filtered = {};
-      after.friction = {};
-      after.tangential_stiffness = 0.0;
+      nodes[count++] = i;
     }
-    if (!closest()) continue;
-    const bool nothing = candidates_.of(i).empty();
-    if ((touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
-      quiet_[at(i)] = nothing ? nothing_listed : in_front;
+    if (batch.count > 0) run_batch(scene, batch);
+    for (std::size_t k = 0; k < count && batch.count > 0; ++k) {
+      const Index i = nodes[k];
+      if (lane[k] == none) continue;
+      const bool ordinary = batch.ordinary[lane[k]] != 0.0;
+      if (ordinary && alone(batch, lane[k], i)) continue;
+      Touch& touch = touches[k];
+      measure(scene, i, touch, sums);
+      any = any || touch.contact;
+      const bool same = ordinary && touch.contact && touch.facet == state_[at(i)].facet && touch.equals == 0;
+      if (!same) lane[k] = none;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const Index i = nodes[k];
+      quiet_[at(i)] = awake;
+      if (lane[k] != none) {
+        finish_ordinary(scene, batch, lane[k], i, sums);
+        continue;
+      }
+      // 7.4.3: anchors are looked at only in groups in which somebody touches.
+      finish_node(host, held, surface, held_loads, i, touches[k], any, sums);
+      if (!touches[k].contact) end_contact(scene, i, touches[k], any, sums);
     }
   }
   if (!closest()) return;
@@ -222,6 +227,37 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touc
     due = quiet_[at(i)] == awake ? unknown_due : std::min(due, candidates_.nearest_due(i));
   }
   group_due_[number] = due;
+}
+
+void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums) {
+  const bool anchors = options_.rules.reference_friction;
+  const NodeState& before = state_[at(i)];
+  NodeState& after = next_[at(i)];
+  if (touch.lost) sums.lost.push_back(scene.held.nodes()[at(i)]);
+  after.held = 0;
+  // The last damping force acts over half of the step that ends the contact.
+  if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * scene.host.dt);
+  after.damping = 0.0;
+  sums.totals.started += 0.5 * before.force * growth(before);
+  after.force = 0.0;
+  after.rate = 0.0;
+  after.acceleration = 0.0;
+  if (!anchors || any) {
+    // The limit falls to zero: what was stored slips away.
+    if (before.tangential_stiffness > 0.0) {
+      sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
+    }
+    after.anchored = 0;
+    after.slip = {};
+    if (!anchors) after.filtered = {};
+    after.friction = {};
+    after.tangential_stiffness = 0.0;
+  }
+  if (!closest()) return;
+  const bool nothing = candidates_.of(i).empty();
+  if ((touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
+    quiet_[at(i)] = nothing ? nothing_listed : in_front;
+  }
 }
 
 PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads) {
@@ -235,7 +271,8 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   }
   const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;
-    for (std::size_t g = begin; g < end; ++g) evaluate_group(scene, g, touches, groups_[g]);
+    HeldBatch batch;
+    for (std::size_t g = begin; g < end; ++g) evaluate_group(scene, g, touches, batch, groups_[g]);
   };
   if (executor_) {
     executor_(groups_.size(), evaluate_groups);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/enforce/held_kernel.hpp"
 #include "contact/enforce/history.hpp"
 #include "contact/enforce/law.hpp"
 #include "contact/enforce/pair.hpp"
@@ -212,7 +213,19 @@ class Pass {
   [[nodiscard]] double clearance(double due) const {
     return 0.25 * std::min(smallest_depth_, due - candidates_.clock() - options_.gap) - surface_step_;
   }
-  void evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, GroupSums& sums);
+  void evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, HeldBatch& batch, GroupSums& sums);
+  void measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums);
+  void end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums);
+  /// True where every ordinary held node goes through held_kernel().
+  [[nodiscard]] bool in_batches(const HostState& host) const;
+  [[nodiscard]] HeldRules held_rules(const HostState& host) const;
+  /// Held by a quadrilateral, with nothing in its history that held_kernel() leaves out.
+  [[nodiscard]] bool may_be_ordinary(const Scene& scene, Index i) const;
+  void put_in(const Scene& scene, Index i, HeldBatch& batch) const;
+  void run_batch(const Scene& scene, HeldBatch& batch) const;
+  /// No other facet can be as near as the one that holds the node.
+  [[nodiscard]] bool alone(const HeldBatch& batch, int lane, Index i) const;
+  void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
   void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                    GroupSums& sums);
   [[nodiscard]] Vec3 rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion,

@@ -11,7 +11,6 @@ namespace abut::contact {
 namespace {
 
 constexpr double never = 1e300;  // offset of a node that is ignored
-constexpr double equal = 1e-8;   // relative difference of distances that are the same
 
 Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   Patch patch = side.patch(f);
@@ -139,9 +138,9 @@ void Pass::share_among_equals(const Side& held, const Side& surface, const Measu
   Vec3 normal = touch.normal;
   for (const Candidates::Entry& entry : candidates_.of(i)) {
     const Index f = entry.facet;
-    if (entry.due - candidates_.clock() > (1.0 + equal) * distance || f == m.facet || !surface.active(f)) continue;
+    if (entry.due - candidates_.clock() > (1.0 + equally_near) * distance || f == m.facet || !surface.active(f)) continue;
     const ClosestPoint other = closest_point(extended(surface, f, strip), x);
-    if (std::abs(std::sqrt(other.squared_distance) - distance) > equal * distance || other.beyond) continue;
+    if (std::abs(std::sqrt(other.squared_distance) - distance) > equally_near * distance || other.beyond) continue;
     if (squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from the facet across
     const Measure its = signed_measure(surface, f, other, x);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;

@@ -35,6 +35,7 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
   first_.assign(at(held.node_count()) + 1, 0);
   entries_.clear();
   nearest_.assign(at(held.node_count()), 1e300);
+  others_.assign(at(held.node_count()), {});
   for (Index i = 0; i < held.node_count(); ++i) {
     const double distance = reach(i);
     const auto begin = static_cast<std::ptrdiff_t>(entries_.size());
@@ -50,7 +51,7 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
         }
         const double away = std::sqrt(closest_point(surface.patch(f), x).squared_distance);
         if (away > limit) return;
-        entries_.push_back({f, away});  // the clock shows 0
+        entries_.push_back({f, false, away});  // the clock shows 0
         nearest_[at(i)] = std::min(nearest_[at(i)], away);
       });
       std::sort(entries_.begin() + begin, entries_.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });

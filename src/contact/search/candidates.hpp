@@ -19,6 +19,7 @@ class Candidates {
  public:
   struct Entry {
     Index facet;
+    bool wide;   ///< `due` counts strips as wide as a held node's can be
     double due;  ///< distance when last measured + the clock then: the distance now is at least due - clock()
   };
 
@@ -41,6 +42,13 @@ class Candidates {
   /// Distance of the node's nearest listed facet + the clock when it was measured (see Entry::due); 1e300: none listed.
   [[nodiscard]] double nearest_due(Index node) const { return nearest_[at(node)]; }
   void set_nearest_due(Index node, double due) { nearest_[at(node)] = due; }
+  /// Of all facets in the node's list but `facet`: when the first of them is due. Kept for one facet per node: that which holds it.
+  struct Others {
+    Index facet = no_index;  ///< no_index: unknown
+    double due = 0.0;
+  };
+  [[nodiscard]] const Others& others(Index node) const { return others_[at(node)]; }
+  void set_others(Index node, Others others) { others_[at(node)] = others; }
   /// Upper bound of the change of any node-to-facet distance since the lists were made.
   [[nodiscard]] double slack() const { return slack_; }
   /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box.
@@ -58,6 +66,7 @@ class Candidates {
   std::vector<Index> first_;
   std::vector<Entry> entries_;
   std::vector<double> nearest_;
+  std::vector<Others> others_;
   Vec3 shift_;  ///< mean motion of the surface since the lists were made
   double slack_ = 0.0;
   double clock_ = 0.0;

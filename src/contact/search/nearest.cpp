@@ -46,11 +46,13 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   Index facet = no_index;
   const double clock = candidates.clock();
   const bool wide = held.strip > border_strip;  // the lists' distances are those of the usual strips
+  const auto known = [&](const Candidates::Entry& entry) { return !wide || entry.wide || surface.borders(entry.facet) == 0; };
   double least = best_distance;
   const auto try_entry = [&](Candidates::Entry& entry) {
     const ClosestPoint other = closest_point(extended(surface, entry.facet, held.strip), x);
     const double distance = std::sqrt(other.squared_distance);
     entry.due = distance + clock;
+    entry.wide = wide;
     least = std::min(least, distance);
     const bool nearer = distance < best_distance || (distance == best_distance && facet != no_index && entry.facet < facet);
     if (!nearer) return;
@@ -69,13 +71,19 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
     if (first != nullptr) try_entry(*first);
   }
   for (Candidates::Entry& entry : entries) {
-    const bool known = !wide || surface.borders(entry.facet) == 0;
-    if ((known && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
+    if ((known(entry) && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
         !surface.active(entry.facet))
       continue;
     try_entry(entry);
   }
   candidates.set_nearest_due(node, least + clock);
+  Candidates::Others others{held.facet == no_index ? no_index : facet == no_index ? best.facet : facet, 1e300};
+  if (others.facet != no_index) {
+    for (const Candidates::Entry& entry : entries) {
+      if (entry.facet != others.facet && surface.active(entry.facet)) others.due = std::min(others.due, known(entry) ? entry.due : -1e300);
+    }
+  }
+  candidates.set_others(node, others);
   return facet == no_index ? best : signed_measure(surface, facet, closest, x);
 }
 
