@@ -189,13 +189,13 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   for (std::size_t k = 0; k < 2; ++k) {
     SideLoads& loads = loads_[k];
     loads.work_step = 0.0;
-    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+    for (std::size_t s = 0; s < loads.node.size(); ++s) {
       if (loads.loaded[s] == 0) continue;
-      const Vec3 f = loads.total(s);
+      const Vec3 f = loads.node[s].total();
       loads.work_step += dot(0.5 * (loads.force_before[s] + f), side_[k].x()[s] - loads.x_before[s]);
       const std::size_t node = at(side_[k].nodes()[s]);
       force[node] += f;
-      stiffness[node] += loads.own_stiffness[s] + loads.reaction_stiffness[s];
+      stiffness[node] += loads.node[s].own_stiffness + loads.node[s].reaction_stiffness;
     }
   }
 
@@ -239,9 +239,9 @@ void OneSided::commit(double) {
     SideLoads& loads = loads_[k];
     loads.work += loads.work_step;
     loads.work_step = 0.0;
-    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+    for (std::size_t s = 0; s < loads.node.size(); ++s) {
       if (loads.loaded[s] == 0) continue;
-      loads.force_before[s] = loads.total(s);
+      loads.force_before[s] = loads.node[s].total();
       loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
     }
     std::copy(side_[k].x().begin(), side_[k].x().end(), loads.x_before.begin());
@@ -257,10 +257,11 @@ void OneSided::commit(double) {
 
 void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
   for (std::size_t k = 0; k < 2; ++k) {
-    for (std::size_t s = 0; s < loads_[k].own_normal.size(); ++s) {
+    for (std::size_t s = 0; s < loads_[k].node.size(); ++s) {
       const std::size_t node = at(side_[k].nodes()[s]);
-      normal[node] += loads_[k].own_normal[s] + loads_[k].reaction_normal[s];
-      tangential[node] += loads_[k].own_tangential[s] + loads_[k].reaction_tangential[s];
+      const SideLoads::Node& load = loads_[k].node[s];
+      normal[node] += load.own_normal + load.reaction_normal;
+      tangential[node] += load.own_tangential + load.reaction_tangential;
     }
   }
 }

@@ -26,18 +26,15 @@ double kept_share(const Options& options, double before, double now) {
 }  // namespace
 
 void SideLoads::resize(std::size_t nodes) {
-  for (std::vector<Vec3>* v : {&own_normal, &own_tangential, &reaction_normal, &reaction_tangential, &force_before, &x_before})
-    v->resize(nodes);
-  own_stiffness.resize(nodes);
-  reaction_stiffness.resize(nodes);
+  node.resize(nodes);
+  for (std::vector<Vec3>* v : {&force_before, &x_before}) v->resize(nodes);
   loaded.resize(nodes);
 }
 
 void SideLoads::clear() {
   for (std::size_t s = 0; s < loaded.size(); ++s) {
     if ((loaded[s] & now) == 0) continue;
-    own_normal[s] = own_tangential[s] = reaction_normal[s] = reaction_tangential[s] = {};
-    own_stiffness[s] = reaction_stiffness[s] = 0.0;
+    node[s] = {};
     loaded[s] &= before;
   }
 }
@@ -260,6 +257,19 @@ void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any
   }
 }
 
+void Pass::add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const {
+  for (const Reaction& r : sums.reactions) {
+    const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      SideLoads::Node& node = surface_loads.node[at(corner[k])];
+      node.reaction_normal += r.normal[k];
+      node.reaction_tangential += r.weight[k] * r.tangential;
+      node.reaction_stiffness += std::abs(r.weight[k]) * r.stiffness;
+      surface_loads.loaded[at(corner[k])] |= SideLoads::now;
+    }
+  }
+}
+
 PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads) {
   const Scene scene{host, held, surface, held_loads, surface_loads};
   keep_ = options_.start_duration > 0.0 ? kept_share(options_, host.time - host.dt, host.time) : 1.0;
@@ -269,10 +279,16 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
     for (const Index n : held.nodes()) largest = std::max(largest, squared_norm(host.dt * host.v[at(n)] - mean_step_));
     coming_step_ = std::sqrt(largest);
   }
-  const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
+  std::size_t added = 0;
+  const auto evaluate_groups = [this, &scene, &added](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;
     HeldBatch batch;
-    for (std::size_t g = begin; g < end; ++g) evaluate_group(scene, g, touches, batch, groups_[g]);
+    for (std::size_t g = begin; g < end; ++g) {
+      evaluate_group(scene, g, touches, batch, groups_[g]);
+      // Reactions are added in the order of the groups: whoever has the first of them adds while they are in its cache.
+      if (begin == 0) add_reactions(groups_[g], scene.surface, scene.surface_loads);
+    }
+    if (begin == 0) added = end;
   };
   if (executor_) {
     executor_(groups_.size(), evaluate_groups);
@@ -283,21 +299,12 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   committed_ = false;
   PassTotals totals;
   for (std::vector<Index>* list : {&in_contact_, &crossed_, &lost_}) list->clear();
+  for (std::size_t g = added; g < groups_.size(); ++g) add_reactions(groups_[g], surface, surface_loads);
   for (const GroupSums& sums : groups_) {
     totals += sums.totals;
     in_contact_.insert(in_contact_.end(), sums.in_contact.begin(), sums.in_contact.end());
     crossed_.insert(crossed_.end(), sums.crossed.begin(), sums.crossed.end());
     lost_.insert(lost_.end(), sums.lost.begin(), sums.lost.end());
-    for (const Reaction& r : sums.reactions) {
-      const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t s = at(corner[k]);
-        surface_loads.reaction_normal[s] += r.normal[k];
-        surface_loads.reaction_tangential[s] += r.weight[k] * r.tangential;
-        surface_loads.reaction_stiffness[s] += std::abs(r.weight[k]) * r.stiffness;
-        surface_loads.loaded[s] |= SideLoads::now;
-      }
-    }
   }
   settled_ = true;
   return totals;

@@ -20,8 +20,13 @@ namespace abut::contact {
 /// Contact forces on the nodes of a side: from being held, and as corners of facets that hold others. Kept apart so that
 /// neither the order of the passes nor that of the surfaces shows in the sums.
 struct SideLoads {
-  std::vector<Vec3> own_normal, own_tangential, reaction_normal, reaction_tangential;
-  std::vector<double> own_stiffness, reaction_stiffness;
+  struct Node {
+    Vec3 own_normal, own_tangential, reaction_normal, reaction_tangential;
+    double own_stiffness = 0.0, reaction_stiffness = 0.0;
+
+    [[nodiscard]] Vec3 total() const { return (own_normal + own_tangential) + (reaction_normal + reaction_tangential); }
+  };
+  std::vector<Node> node;
   std::vector<Vec3> force_before, x_before;  ///< of the last committed step
   /// Which of them can be other than zero: the loads of this step, the force of the last.
   static constexpr std::uint8_t now = 1, before = 2;
@@ -31,9 +36,6 @@ struct SideLoads {
 
   void resize(std::size_t nodes);
   void clear();
-  [[nodiscard]] Vec3 total(std::size_t s) const {
-    return (own_normal[s] + own_tangential[s]) + (reaction_normal[s] + reaction_tangential[s]);
-  }
 };
 
 /// A material point of the surface.
@@ -48,20 +50,21 @@ struct NodeState {
   Vec3 slip;            ///< return mapping: elastic slip in the anchor's facet frame; anchors: F0
   Vec3 slip_normal;     ///< return mapping: contact normal in the same frame
   Vec3 friction;        ///< friction force of the last step, as it acted on the surface
-  Vec3 filtered;        ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
   SurfacePoint anchor;  ///< return mapping: last contact point; anchors: where F0 acted
-  SurfacePoint last;    ///< last contact point
   double tangential_stiffness = 0.0;
   double rate = 0.0;          ///< speed of opening in the last step
   double acceleration = 0.0;  ///< that the contact force gave to the opening
-  double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
-  double damping = 0.0;       ///< damping force of the last step
   double force = 0.0;         ///< normal force of the last step, without damping
   std::int32_t facet = no_index;
   std::uint8_t held = 0;     ///< 1: came over a border; 2: came through the front, its strips widen with its depth
   std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
   std::uint8_t anchored = 0;
   std::uint8_t in_front = 0;  ///< was measured in front of a facet
+  double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
+  double damping = 0.0;       ///< damping force of the last step
+  // What only some rules remember, apart from what every step of every held node touches.
+  Vec3 filtered;      ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
+  SurfacePoint last;  ///< anchors: last contact point
 };
 
 struct PassTotals {
@@ -148,7 +151,7 @@ class Pass {
     const Side& held;
     const Side& surface;
     SideLoads& held_loads;
-    const SideLoads& surface_loads;
+    SideLoads& surface_loads;
   };
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
   enum Quiet : std::uint8_t { awake, in_front, nothing_listed };
@@ -223,6 +226,7 @@ class Pass {
   [[nodiscard]] bool may_be_ordinary(const Scene& scene, Index i) const;
   void put_in(const Scene& scene, Index i, HeldBatch& batch) const;
   void run_batch(const Scene& scene, HeldBatch& batch) const;
+  void add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const;
   /// No other facet can be as near as the one that holds the node.
   [[nodiscard]] bool alone(const HeldBatch& batch, int lane, Index i) const;
   void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);

@@ -49,7 +49,7 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
     box.inflate(options_.gap + 2.0 * surface_step_);
     if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
   });
-  held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
+  held_loads.node[at(i)].own_stiffness += largest * law_.tangent(1e30);
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
 
@@ -100,7 +100,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       double spread = 0.0;
       for (const double w : touch.weight) spread += std::abs(w);
       tangent *= 0.5 * (1.0 + spread);
-      held_loads.own_stiffness[at(i)] += tangent;
+      held_loads.node[at(i)].own_stiffness += tangent;
       held_loads.loaded[at(i)] |= SideLoads::now;
       reaction.stiffness = tangent;
     }
@@ -156,7 +156,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     on_node += after.damping * touch.normal;
     for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= (share * touch.weight[k] * after.damping) * touch.normal;
   }
-  held_loads.own_normal[at(i)] = on_node;
+  held_loads.node[at(i)].own_normal = on_node;
   held_loads.loaded[at(i)] |= SideLoads::now;
   totals.normal += on_node;
 
@@ -180,7 +180,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
-    held_loads.own_tangential[at(i)] = -on_surface;
+    held_loads.node[at(i)].own_tangential = -on_surface;
     reaction.tangential = share * on_surface;
     totals.tangential -= on_surface;
   }

@@ -139,8 +139,8 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
     reaction.normal[c] = get(batch.on_corner[c]);
   }
   const Vec3 on_node = get(batch.on_node);
-  loads.own_normal[at(i)] = on_node;
-  loads.own_stiffness[at(i)] += batch.step_stiffness[k];
+  loads.node[at(i)].own_normal = on_node;
+  loads.node[at(i)].own_stiffness += batch.step_stiffness[k];
   loads.loaded[at(i)] |= SideLoads::now;
   totals.normal += on_node;
 
@@ -150,14 +150,12 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
     slips_[at(i)] = batch.slips[k] != 0.0 ? 1 : 0;
     const Vec3 on_surface = get(batch.on_surface);
     reaction.tangential = on_surface;
-    loads.own_tangential[at(i)] = -on_surface;
+    loads.node[at(i)].own_tangential = -on_surface;
     totals.tangential -= on_surface;
     after.friction = on_surface;
     after.anchored = 1;
     after.anchor = {reaction.weight, before.facet};
-    after.last = after.anchor;
     after.slip = get(batch.slip);
-    after.filtered = {};
     after.slip_normal = get(batch.slip_normal);
     after.tangential_stiffness = batch.tangential_stiffness[k];
   } else {
