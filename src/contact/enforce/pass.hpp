@@ -121,6 +121,9 @@ class Pass {
     Vec3 point, normal;
     double distance = 0.0;
     double penetration = 0.0;
+    Measure measure;              ///< what `pair` is made from, where it is not made yet
+    double gap = 0.0;             ///< the same
+    bool pair_open = false;       ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
     PairForce pair;               ///< where several facets are equally near: the mean of theirs
     std::size_t first_equal = 0;  ///< further facets at the same distance: GroupSums::equals from here
     std::size_t equals = 0;
@@ -156,8 +159,7 @@ class Pass {
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
   enum Quiet : std::uint8_t { awake, in_front, nothing_listed };
   struct Kinematics {
-    double rate = 0.0;          ///< of opening, n.(v - v_point)
-    double inverse_mass = 0.0;  ///< of the pair; 0: unknown
+    double rate = 0.0;  ///< of opening, n.(v - v_point)
     Vec3 tangential_velocity;
   };
 
@@ -203,6 +205,8 @@ class Pass {
   [[nodiscard]] Index swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads,
                                   Index i) const;
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
+  /// 1/m of a node with its facet; 0: unknown
+  [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
   void limit_depths();
   [[nodiscard]] const NodeState& now(Index i) const { return (committed_ ? state_ : next_)[at(i)]; }
   /// Signed distance of a held node to the other side, whatever it touches; NaN when nothing is near.

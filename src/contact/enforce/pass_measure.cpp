@@ -116,6 +116,12 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   touch.penetration = gap - m.distance;
   // A node that was in front, that the swept test caught, or that touches at the start comes through the front.
   if (!was_held) touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_;
+  touch.pair_open = !meets && !was_held;
+  if (touch.pair_open) {
+    touch.measure = m;
+    touch.gap = gap;
+    return;
+  }
   touch.pair = force_of(held, surface, m, i, gap, touch.widens);
   touch.contact = meets && touch.pair.magnitude > 0.0;
   // Still behind the gap, but where the strip of a free border has faded to nothing.
