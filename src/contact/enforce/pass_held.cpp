@@ -103,7 +103,8 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
 
 bool Pass::alone(const HeldBatch& batch, int lane, Index i) const {
   const Candidates::Others& others = candidates_.others(i);
-  if (others.facet != state_[at(i)].facet) return false;
+  const NodeState& before = state_[at(i)];
+  if (others.facet != before.facet || (before.held == 2 && !others.wide)) return false;
   // Beyond what counts as equally near, with room for the rounding of the clock.
   const double reach = (others.due - candidates_.clock()) * (1.0 - 2.0 * equally_near);
   return reach > 0.0 && reach * reach > batch.squared_distance[lane];
@@ -131,9 +132,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   sums.in_contact.push_back(node);
   totals.potential += batch.potential[k];
 
-  Reaction& reaction = sums.reactions.emplace_back();
-  reaction.facet = before.facet;
-  reaction.stiffness = batch.step_stiffness[k];
+  Reaction reaction{before.facet, batch.step_stiffness[k], {}, {}, {}};
   for (std::size_t c = 0; c < 4; ++c) {
     reaction.weight[c] = batch.weight[c][k];
     reaction.normal[c] = get(batch.on_corner[c]);
@@ -161,6 +160,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   } else {
     after = before;
   }
+  sums.reactions.push_back(reaction);
   after.normal = get(batch.normal);
   after.rate = batch.rate[k];
   after.acceleration = batch.acceleration[k];

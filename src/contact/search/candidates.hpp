@@ -42,9 +42,10 @@ class Candidates {
   /// Distance of the node's nearest listed facet + the clock when it was measured (see Entry::due); 1e300: none listed.
   [[nodiscard]] double nearest_due(Index node) const { return nearest_[at(node)]; }
   void set_nearest_due(Index node, double due) { nearest_[at(node)] = due; }
-  /// Of all facets in the node's list but `facet`: when the first of them is due. Kept for one facet per node: that which holds it.
+  /// Of all active facets in the node's list but `facet`, the nearest one: when the first of them is due.
   struct Others {
     Index facet = no_index;  ///< no_index: unknown
+    bool wide = false;       ///< as in Entry
     double due = 0.0;
   };
   [[nodiscard]] const Others& others(Index node) const { return others_[at(node)]; }
