@@ -156,8 +156,23 @@ void OneSided::search(const HostState& host) {
   }
   started_ = true;
   if (host.time < options_.birth || host.time > options_.death) return;
-  pass_[0].search(side_[0], side_[1], loads_[1]);
-  if (two_passes_) pass_[1].search(side_[1], side_[0], loads_[0]);
+  // A search that no commit followed: lists and x_before then are of different positions.
+  if (!stepped_) {
+    for (Pass& pass : pass_) pass.invalidate();
+  }
+  stepped_ = false;
+  const std::array<Motion, 2> motion = motions();
+  pass_[0].search(side_[0], side_[1], motion[0]);
+  if (two_passes_) pass_[1].search(side_[1], side_[0], motion[1]);
+}
+
+// Of both passes: each side is measured against its own mean motion and against the other's.
+std::array<Motion, 2> OneSided::motions() const {
+  std::array<Vec3, 2> mean;
+  for (std::size_t k = two_passes_ ? 0 : 1; k < 2; ++k) mean[k] = mean_motion(side_[k].x(), loads_[k].x_before);
+  std::array<TwoLargest, 2> largest;  // against the mean of side 0, of side 1
+  for (std::size_t k = 0; k < 2; ++k) largest[k] = largest_motion(side_[k].x(), loads_[k].x_before, mean[0], mean[1]);
+  return {Motion{mean[1], largest[0].from_b, largest[1].from_b}, Motion{mean[0], largest[1].from_a, largest[0].from_a}};
 }
 
 StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
@@ -174,13 +189,13 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   for (std::size_t k = 0; k < 2; ++k) {
     SideLoads& loads = loads_[k];
     loads.work_step = 0.0;
-    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+    for (std::size_t s = 0; s < loads.node.size(); ++s) {
       if (loads.loaded[s] == 0) continue;
-      const Vec3 f = loads.total(s);
+      const Vec3 f = loads.node[s].total();
       loads.work_step += dot(0.5 * (loads.force_before[s] + f), side_[k].x()[s] - loads.x_before[s]);
       const std::size_t node = at(side_[k].nodes()[s]);
       force[node] += f;
-      stiffness[node] += loads.own_stiffness[s] + loads.reaction_stiffness[s];
+      stiffness[node] += loads.node[s].own_stiffness + loads.node[s].reaction_stiffness;
     }
   }
 
@@ -224,13 +239,14 @@ void OneSided::commit(double) {
     SideLoads& loads = loads_[k];
     loads.work += loads.work_step;
     loads.work_step = 0.0;
-    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
+    for (std::size_t s = 0; s < loads.node.size(); ++s) {
       if (loads.loaded[s] == 0) continue;
-      loads.force_before[s] = loads.total(s);
+      loads.force_before[s] = loads.node[s].total();
       loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
     }
     std::copy(side_[k].x().begin(), side_[k].x().end(), loads.x_before.begin());
   }
+  stepped_ = true;
   friction_work_ += friction_step_;
   friction_step_ = 0.0;
   damping_work_ += damping_step_;
@@ -241,10 +257,11 @@ void OneSided::commit(double) {
 
 void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
   for (std::size_t k = 0; k < 2; ++k) {
-    for (std::size_t s = 0; s < loads_[k].own_normal.size(); ++s) {
+    for (std::size_t s = 0; s < loads_[k].node.size(); ++s) {
       const std::size_t node = at(side_[k].nodes()[s]);
-      normal[node] += loads_[k].own_normal[s] + loads_[k].reaction_normal[s];
-      tangential[node] += loads_[k].own_tangential[s] + loads_[k].reaction_tangential[s];
+      const SideLoads::Node& load = loads_[k].node[s];
+      normal[node] += load.own_normal + load.reaction_normal;
+      tangential[node] += load.own_tangential + load.reaction_tangential;
     }
   }
 }
@@ -298,6 +315,7 @@ void OneSided::load(HistoryReader& in) {
     std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), static_cast<std::uint8_t>(SideLoads::now | SideLoads::before));
   }
   for (Pass& pass : pass_) pass.load(in);
+  stepped_ = false;
 }
 
 }  // namespace abut::contact

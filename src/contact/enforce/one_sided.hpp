@@ -39,8 +39,10 @@ class OneSided final : public InterfaceModel {
   double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0, start_work_ = 0.0, start_step_ = 0.0;
   double initial_elastic_ = 0.0;  ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
+  bool stepped_ = false;  ///< SideLoads::x_before are the positions of the last search
 
   void prepare();
+  [[nodiscard]] std::array<Motion, 2> motions() const;
   void project(Side& held, Side& surface, bool move_surface, std::vector<Vec3>& moved) const;
 };
 

@@ -42,6 +42,9 @@ class Side {
   [[nodiscard]] double thickness(Index f) const { return thickness_.empty() ? 0.0 : thickness_[at(f)]; }
   [[nodiscard]] bool has_thickness() const { return !thickness_.empty(); }
 
+  /// Bit e: side e of the facet is a free border.
+  [[nodiscard]] std::uint8_t borders(Index f) const { return borders_[at(f)]; }
+
   /// Copies the host's positions of this surface's nodes.
   void gather(std::span<const Vec3> x);
   [[nodiscard]] std::span<const Vec3> x() const { return x_; }
