@@ -187,8 +187,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   after.force = normal_force;
   after.push = on_node;
   after.stored = stored;
-  // Reactions on several facets are not followed.
-  after.reckoned = rules.switch_correction && touch.equals == 0 && (fresh || before.reckoned != 0) ? 1 : 0;
+  // Of facets that are equally near the first stands for all.
+  after.reckoned = rules.switch_correction && (fresh || before.reckoned != 0) ? 1 : 0;
   after.light = light ? 1 : 0;
   after.made = 0.0;
   if (after.reckoned != 0) {
