@@ -162,7 +162,7 @@ struct Shots {
 /// speed share an interface: the surface does not move, so that they know nothing of each other, and slow ones keep their lists.
 /// @param curvature  z = curvature (x^2 + y^2), facets of size 1
 /// @param count      shots per half
-inline Shots shoot(double curvature, int count, unsigned seed) {
+inline Shots shoot(double curvature, int count, unsigned seed, const Rules& rules = Rules::standard()) {
   constexpr int together = 250;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -186,6 +186,7 @@ inline Shots shoot(double curvature, int count, unsigned seed) {
       }
       Options o;
       o.gap = gap;
+      o.rules = rules;
       o.stiffness_scale = 1.0;
       // The host's step of 1 is stable for the stiffest part of the law: h^2 k / m = 0.2 there.
       const double k = gap > 0.0 ? 0.002 : 0.2;
