@@ -42,6 +42,8 @@ struct LastForce {
 }
 
 /// The coming step as a contact foresees it: steps go on changing as they did.
-[[nodiscard]] inline double foreseen_step(double before, double now) { return now * (before > 0.0 ? std::clamp(now / before, 0.5, 1.1) : 1.0); }
+[[nodiscard]] inline double foreseen_step(double before, double now) {
+  return now * (before > 0.0 ? std::clamp(now / before, 0.5, 1.1) : 1.0);
+}
 
 }  // namespace abut::contact

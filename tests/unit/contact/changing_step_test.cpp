@@ -105,8 +105,8 @@ TEST(ChangingStep, bounce_keeps_its_energy) {
         }
       }
     }
-    std::printf("  %s: kinetic energy after a bounce, largest mean %.4f %% worst %.4f %%\n", law == Law::constant ? "constant" : "stiffening",
-                100 * all.mean, 100 * all.worst);
+    std::printf("  %s: kinetic energy after a bounce, largest mean %.4f %% worst %.4f %%\n",
+                law == Law::constant ? "constant" : "stiffening", 100 * all.mean, 100 * all.worst);
   }
 }
 

@@ -88,7 +88,7 @@ struct Path {
 
 // One node dragged along a closed path without friction: CX over the lap.
 inline Path lap(Rules rules, double gap, const std::vector<Facet>& facets, const std::vector<double>& stiffness, Host host,
-         const std::function<Vec3(double)>& where, int steps) {
+                const std::function<Vec3(double)>& where, int steps) {
   Options o;
   o.rules = rules;
   o.rules.switch_correction = false;  // a path walked at no speed
@@ -160,7 +160,8 @@ inline double net_of_lap(const ClosedPathCase& c, Rules rules, double gap, doubl
   if (c.jump) {
     for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 6 < 3 ? 1.0 : 4.0;
   }
-  const Path path = lap(rules, gap, facets, stiffness, host, [&](double u) { return on_closed_path(c, gap, p, u); }, steps);
+  const Path path = lap(
+      rules, gap, facets, stiffness, host, [&](double u) { return on_closed_path(c, gap, p, u); }, steps);
   return path.largest > 0.0 ? path.net / path.largest : 0.0;
 }
 

@@ -192,33 +192,36 @@ inline Shots shoot(double curvature, int count, unsigned seed, const Rules& rule
       const double k = gap > 0.0 ? 0.002 : 0.2;
       Interface i = Interface::nodes_to_surface(nodes, std::vector<double>(nodes.size(), 2.0 * k), Surface(main), o);
       set_stiffness(i, 1, main.size(), 2.0 * k);
-      const std::vector<Vec3> came = host.v;
-      enum State : char { coming, touching, left };
+      const std::vector<Vec3> came(host.v.begin() + static_cast<std::ptrdiff_t>(first), host.v.end());
+      enum State : char { coming, touching, left, left_behind };
       std::vector<char> state(nodes.size(), coming);
       int flying = shots;
-      for (int step = 0; step < 4000 && flying > 0; ++step) {
+      for (int step = 0; step < 1000 && flying > 0; ++step) {
         host.step(i, 1.0);
         result.caught += host.last.crossed;
         std::vector<char> touches(host.x.size(), 0);
         for (const Index n : i.nodes_in_contact()) touches[static_cast<std::size_t>(n)] = 1;
         for (std::size_t s = 0; s < state.size(); ++s) {
           if (touches[first + s] != 0) {
-            if (state[s] == left) ++flying;  // it has come back
+            if (state[s] >= left) ++flying;  // it has come back
             state[s] = touching;
           } else if (state[s] == touching) {
-            state[s] = left;
             --flying;
             const Vec3 end = host.x[first + s];
             const Vec3 v = host.v[first + s];
             // The paraboloid's facets lie above it by up to a quarter of the curvature: in front of them is well in front of this.
             const double normal_speed = v.z - 2.0 * curvature * (end.x * v.x + end.y * v.y);
-            if (end.z < height(end.x, end.y) - 0.6 * std::abs(curvature) || normal_speed <= 0.0) ++result.behind;
-            result.worst = std::max(result.worst, std::abs(squared_norm(v) / squared_norm(came[first + s]) - 1.0));
+            const bool behind = end.z < height(end.x, end.y) - 0.6 * std::abs(curvature) || normal_speed <= 0.0;
+            state[s] = behind ? left_behind : left;
           }
         }
       }
-      result.behind += flying;  // never touched, or never left
       result.count += shots;
+      for (std::size_t s = 0; s < state.size(); ++s) {
+        if (state[s] != left) ++result.behind;  // behind, never touched, or never left
+        if (state[s] != left) continue;
+        result.worst = std::max(result.worst, std::abs(squared_norm(host.v[first + s]) / squared_norm(came[s]) - 1.0));
+      }
     }
   }
   return result;
