@@ -165,6 +165,45 @@ inline double net_of_lap(const ClosedPathCase& c, Rules rules, double gap, doubl
   return path.largest > 0.0 ? path.net / path.largest : 0.0;
 }
 
+/// The same for a rigid patch of 3 x 3 nodes, 0.5 wide, that faces the surface: two surfaces, two passes. Its lowest node follows the path.
+inline double net_of_patch(const ClosedPathCase& c, Rules rules, double gap, double p, int steps) {
+  constexpr double half = 0.25;
+  Host host;
+  const auto facets = grid(host, 6, 6, -2.5, 2.5, -2.5, 2.5, c.height);
+  std::vector<double> stiffness(facets.size(), 1.0);
+  if (c.jump) {
+    for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 6 < 3 ? 1.0 : 4.0;
+  }
+  const std::size_t first = host.x.size();
+  const auto patch = grid(host, 2, 2, -half, half, -half, half, flat, false, false, 1.0);
+  const std::vector<Vec3> at_rest = host.x;
+  const auto place = [&](double u) {
+    Vec3 to = on_closed_path(c, gap, p, u);
+    double rise = -1e300;
+    for (std::size_t n = first; n < at_rest.size(); ++n) rise = std::max(rise, c.height(to.x + at_rest[n].x, to.y + at_rest[n].y));
+    to.z += rise - c.height(to.x, to.y);
+    std::vector<Vec3> x = at_rest;
+    for (std::size_t n = first; n < x.size(); ++n) x[n] += to;
+    return x;
+  };
+  Options o;
+  o.rules = rules;
+  o.rules.switch_correction = false;  // a path walked at no speed
+  o.gap = gap;
+  o.stiffness_scale = 1.0;
+  Interface i = Interface::two_surfaces(Surface(facets), Surface(patch), o);
+  i.set_surface(0, {stiffness, {}, {}});
+  set_stiffness(i, 1, patch.size(), 1.0);
+  host.x = place(0.0);
+  host.contact(i);
+  double largest = 0.0;
+  for (int s = 1; s <= steps; ++s) {
+    host.place(i, place(static_cast<double>(s) / steps));
+    largest = std::max(largest, host.last.elastic);
+  }
+  return largest > 0.0 ? std::abs(host.last.made) / largest : 0.0;
+}
+
 /// A block of free nodes thrown on a rubbing surface, under a weight of 1 per node.
 struct SlideToRest {
   double kinetic = 0.0, left = 0.0;  ///< of motion along the surface, before and after

@@ -107,5 +107,31 @@ TEST(ClosedPath, gives_its_work_back) {
   std::printf("  worst %.2e\n", worst);
 }
 
+// The same for a patch of nodes with facets of its own, both passes.
+TEST(ClosedPath, patch_gives_its_work_back) {
+  const std::vector<ClosedPathCase> cases = test::closed_path_cases();
+  double worst = 0.0;
+  for (const ClosedPathCase& c : cases) {
+    for (const Law law : {Law::stiffening, Law::constant}) {
+      for (const double part : {0.3, 0.8}) {
+        Rules standard = Rules::standard();
+        standard.law = law;
+        Rules plain = Rules::reference();
+        plain.law = law;
+        const double net = test::net_of_patch(c, standard, 0.2, 0.2 * part, 8000);
+        const double theirs = test::net_of_patch(c, plain, 0.2, 0.2 * part, 1000);
+        std::printf("  %-34s P %.2f Gap %s: net/CE %.2e (plain %.2e)\n", c.name.c_str(), part, law == Law::constant ? "const" : "stiff",
+                    net, theirs);
+        // As above; and in a fold of 90 degrees the patch is as wide as it is deep, so that its border comes as near as its faces.
+        const bool narrow = &c == &cases.back() || c.name == "fold 90 concave";
+        if (!narrow) worst = std::max(worst, net);
+        EXPECT_GT(net, 0.0) << c.name;
+        EXPECT_LE(net, narrow ? 8e-3 : 1e-3) << c.name;
+      }
+    }
+  }
+  std::printf("  worst %.2e\n", worst);
+}
+
 }  // namespace
 }  // namespace abut::contact
