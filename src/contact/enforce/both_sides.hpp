@@ -39,7 +39,7 @@ class BothSides final : public InterfaceModel {
     double acceleration = 0.0;  ///< what the pair's own normal force gave it
     std::int64_t acts = 0;      ///< 1: p > 0 in the last cycle
   };
-  struct Motion {
+  struct Opening {
     Vec3 velocity;              ///< of the node relative to the facet's point under it
     double rate = 0.0;          ///< its part along the normal, > 0 opening
     double inverse_mass = 0.0;  ///< 0 where the host gives no masses
@@ -71,10 +71,10 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] double pair_gap(Index node, Index facet) const;
   [[nodiscard]] double reach(Index node) const;
   [[nodiscard]] bool acts(const HostState& host) const { return host.time >= options_.birth && host.time <= options_.death; }
-  [[nodiscard]] Motion motion(const HostState& host, Index node, Index facet, const BothSidesContact& c) const;
-  [[nodiscard]] Spring spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Motion& m,
+  [[nodiscard]] Opening opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const;
+  [[nodiscard]] Spring spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Opening& m,
                               const BothSidesForce& law) const;
-  [[nodiscard]] double lasting_tangent(double k0, double gap, double p, const Motion& m) const;
+  [[nodiscard]] double lasting_tangent(double k0, double gap, double p, const Opening& m) const;
   bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                 Sums& sums);
   [[nodiscard]] double offset_of(const Pair& old, double gap, double penetration) const;
@@ -92,7 +92,7 @@ class BothSides final : public InterfaceModel {
   std::vector<Pair> pairs_, previous_;                         // by node, then facet
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
-  std::vector<std::uint8_t> slips_;  // #held: some friction of the node is at its limit (output only, no history)
+  std::vector<std::uint8_t> slips_;                            // #held: some friction of the node is at its limit (output only, no history)
   std::vector<Index> in_contact_, scratch_;
   std::vector<std::uint8_t> off_;          // #F: without stiffness for good (drop_facets)
   double widest_ = 0.0, narrowest_ = 0.0;  // largest gap of a facet; smallest gap of any pair

@@ -19,11 +19,11 @@ constexpr double exhausted = 1e-10;
 }  // namespace
 
 /// How the node moves relative to the facet's point under it, with the pair's inverse mass 1/m_s + sum H_k^2/m_k.
-BothSides::Motion BothSides::motion(const HostState& host, Index node, Index facet, const BothSidesContact& c) const {
+BothSides::Opening BothSides::opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const {
   const auto& corner = surface_.surface().local()[at(facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
   const auto inverse = [&](std::size_t n) { return mass_of(host, n) > 0.0 ? 1.0 / mass_of(host, n) : 0.0; };
-  Motion m;
+  Opening m;
   const std::size_t self = host_of(held_own_[at(node)]);
   m.velocity = host.v[self];
   m.inverse_mass = inverse(self);
@@ -39,7 +39,7 @@ BothSides::Motion BothSides::motion(const HostState& host, Index node, Index fac
 
 /// Tangent of the elastic law at the depth where the spring alone stops the pair (at most half the gap beyond p's own): energy keeps it
 /// the same from the first touch to the last, and with it the step.
-double BothSides::lasting_tangent(double k0, double gap, double p, const Motion& m) const {
+double BothSides::lasting_tangent(double k0, double gap, double p, const Opening& m) const {
   const double inside = std::max(p, 0.0);
   const double stop = m.inverse_mass > 0.0 ? std::sqrt(inside * inside + m.rate * m.rate / (k0 * m.inverse_mass)) : inside;
   const double ratio = gap / (gap - std::max(inside, std::min(stop, 0.5 * gap)));
@@ -47,7 +47,7 @@ double BothSides::lasting_tangent(double k0, double gap, double p, const Motion&
 }
 
 /// Elastic force and stored energy of a cycle: the law's own, but for the cycles in which the pair starts or ends (switching.hpp).
-BothSides::Spring BothSides::spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Motion& m,
+BothSides::Spring BothSides::spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Opening& m,
                                     const BothSidesForce& law) const {
   const double moved = std::abs(m.rate) * host.dt;
   if (!options_.switch_correction || host.dt <= 0.0 || p + moved > NormalLaw::bend * gap) return {law.elastic, law.energy};
@@ -112,7 +112,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   }
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
   const std::size_t self = host_of(held_own_[at(node)]);
-  const Motion m = motion(host, node, facet, c);
+  const Opening m = opening(host, node, facet, c);
   const double vn = m.rate;
   if (vn < 0.0) {
     const double step = 0.5 * (gap - p) / -vn;
@@ -182,7 +182,7 @@ void BothSides::foresee(const HostState& host, Index node, Index facet, double k
   const double gap = pair_gap(node, facet);
   const BothSidesContact c = meet(held_, surface_, node, facet, gap + ahead).contact;
   if (c.penetration <= 0.0) return;
-  const Motion m = motion(host, node, facet, c);
+  const Opening m = opening(host, node, facet, c);
   const double vn = m.rate;
   sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * old.damping);
   const double p = c.penetration - ahead - 2.0 * longest_step_ * vn;

@@ -218,9 +218,12 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
 
   // Motion.
   V<T> v = simd::gather3(b.v, b.node_v + k, T());
+  V<T> v_last = v;  // over the last contact point
   T inverse_mass = inverse(load<T>(b.mass[4] + k));
   for (int i = 0; i < 4; ++i) {
-    v = v - h[i] * simd::gather3(b.v, b.corner_v[i] + k, T());
+    const V<T> of_corner = simd::gather3(b.v, b.corner_v[i] + k, T());
+    v = v - h[i] * of_corner;
+    v_last = v_last - load<T>(b.last[i] + k) * of_corner;
     inverse_mass = inverse_mass + (h[i] * h[i]) * inverse(load<T>(b.mass[i] + k));
   }
   inverse_mass = T(rules.pairs) * inverse_mass;
@@ -229,12 +232,29 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   store(b.rate + k, rate);
   store(b.acceleration + k, force * inverse_mass);
   store(b.approach + k, rules.gap > 0.0 ? simd::select(closing * step >= T(-0.25) * p, closing * step / gap, zero) : zero);
+  T others = zero;
+  if (rules.mean_step > 0.0) others = (rate - load<T>(b.rate_before + k)) / T(rules.mean_step) - load<T>(b.acceleration_before + k);
   if (rules.corrects_switching) {
     // Neither ends in the coming step as switching.hpp sees it.
-    T others = zero;
-    if (rules.mean_step > 0.0) others = (rate - load<T>(b.rate_before + k)) / T(rules.mean_step) - load<T>(b.acceleration_before + k);
     ordinary = ordinary & (rate * step + (step * step) * (inverse_mass * force + others) <= p);
   }
+
+  // The account, which only a light pair settles: with its last force, in the general way.
+  const T longest = T(rules.longest_step);
+  const auto reckoned = load<T>(b.reckoned + k) > half;
+  T at_p = one;
+  if (rules.stiffens) {
+    const T rest = one - p / gap;
+    at_p = one / (rest * rest);
+  }
+  const auto light = (load<T>(b.light_before + k) > half) | (inverse_mass * (kappa * at_p) * (step * step) > T(rules.light_pair));
+  const T leaves = rate + half * (step + longest) * (inverse_mass * force + others);
+  ordinary = ordinary & !(light & reckoned & (leaves * longest > p));
+  const T by_step = T(0.25 * (rules.step_before - rules.step)) * (load<T>(b.force_before + k) * (rate - load<T>(b.rate_before + k)));
+  const T made = load<T>(b.made_before + k) - load<T>(b.stored_before + k) + half * (step * dot(load3<T>(b.push_before, k), v_last)) + by_step;
+  store(b.made + k, simd::select(reckoned, made + half * (step * dot(on_node, v)) + kappa * phi, zero));
+  store(b.light + k, simd::select(light, one, zero));
+  store(b.stepped + k, by_step);
 
   // Stiffness for the coming step.
   constexpr double step_growth = 1.2;  // the coming step may be longer than the last one

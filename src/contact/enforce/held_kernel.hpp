@@ -4,6 +4,7 @@
 //   projection   Newton on |x - X(s,t)|^2 from (0, 0), A ds = -grad, A_ab = X_a.X_b - r.X_ab       (closest_point.hpp)
 //   normal       d = n.r, P = gap - d, kappa = s K1(xi) K2/(K1 + K2), phi of law.hpp                  (pair.hpp)
 //                f = kappa phi' n - c^a X_a,  f_i = -H_i f - c^a H_i,a r,  c^a = phi A^-1_ab dkappa/dxi_b
+//   account      M of account.hpp: every step adds its trapezoidal work, the change of the potential, and what a changing step made
 //   friction     trial e + dg, e' = min(1, L/(k_t |e + dg|)) (e + dg), e in the facet's frame       (friction.hpp)
 //
 // Inside a facet the taper is 1 and its gradient 0, so strips do not appear. A lane is `ordinary` when all that the formulas above
@@ -26,6 +27,9 @@ struct HeldRules {
   double step_factor = 1.0;       ///< sqrt(1 + mu^2): share of friction in the stiffness for the step
   double step = 0.0;              ///< h of the last step, > 0
   double mean_step = 0.0;         ///< the one between the last two forces; 0: unknown
+  double step_before = 0.0;       ///< the step before h
+  double longest_step = 0.0;      ///< that the coming step may have
+  double light_pair = 0.0;        ///< h^2 K/m from which on an account is settled
   double smallest = 0.0;          ///< length: least penetration that the stiffness for the step is taken at
   double pairs = 1.0;             ///< passes: springs that act on the same motion
   bool stiffens = false, rubs = false, corrects_switching = false;
@@ -47,6 +51,9 @@ struct HeldBatch {
   double reach[size];                   ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
   double rate_before[size], acceleration_before[size];
   double anchor[4][size];               ///< weights of the last contact point
+  double force_before[size], stored_before[size], made_before[size], push_before[3][size];
+  double last[4][size];                   ///< weights of the last contact point, on the same facet
+  double reckoned[size], light_before[size];  ///< 1 or 0
   double slip_before[3][size], slip_normal_before[3][size], tangential_stiffness_before[size];
 
   // Out.
@@ -57,6 +64,7 @@ struct HeldBatch {
   double on_node[3][size], on_corner[4][3][size];
   double potential[size], step_stiffness[size];
   double rate[size], acceleration[size];
+  double stepped[size], made[size], light[size];
   double approach[size], kinematic_step[size];
   double slip[3][size], slip_normal[3][size], tangential_stiffness[size];
   double on_surface[3][size];  ///< friction

@@ -203,6 +203,7 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   friction_step_ = total[0].dissipated + total[1].dissipated;
   damping_step_ = total[0].damped + total[1].damped;
   start_step_ = total[0].started + total[1].started;
+  stepped_step_ = total[0].stepped + total[1].stepped;
   result.damping_work = damping_work_ + damping_step_;
   result.start_work = start_work_ + start_step_;
   result.elastic = (total[0].potential + total[0].stick) + (total[1].potential + total[1].stick);
@@ -210,7 +211,8 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   const double work = (loads_[0].work + loads_[0].work_step) + (loads_[1].work + loads_[1].work_step);
   if (!evaluated_) initial_elastic_ = result.elastic;
   evaluated_ = true;
-  result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work - result.start_work;
+  result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work - result.start_work +
+                (stepped_work_ + stepped_step_);
   result.normal_force = total[1].normal - total[0].normal;
   result.tangential_force = total[1].tangential - total[0].tangential;
   result.in_contact = total[0].in_contact + total[1].in_contact;
@@ -253,6 +255,8 @@ void OneSided::commit(double) {
   damping_step_ = 0.0;
   start_work_ += start_step_;
   start_step_ = 0.0;
+  stepped_work_ += stepped_step_;
+  stepped_step_ = 0.0;
 }
 
 void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
@@ -289,6 +293,7 @@ void OneSided::save(HistoryWriter& out) const {
   out.put(friction_work_);
   out.put(damping_work_);
   out.put(start_work_);
+  out.put(stepped_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     out.put(loads_[k].work);
     out.put_all(loads_[k].force_before);
@@ -307,6 +312,7 @@ void OneSided::load(HistoryReader& in) {
   in.get(friction_work_);
   in.get(damping_work_);
   in.get(start_work_);
+  in.get(stepped_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     loads_[k].clear();  // an evaluation that was not committed leaves nothing behind
     in.get(loads_[k].work);

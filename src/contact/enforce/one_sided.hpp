@@ -37,7 +37,8 @@ class OneSided final : public InterfaceModel {
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
   std::vector<Index> in_contact_, crossed_, lost_;
   double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0, start_work_ = 0.0, start_step_ = 0.0;
-  double initial_elastic_ = 0.0;  ///< stored before anything moved: initial penetrations
+  double stepped_work_ = 0.0, stepped_step_ = 0.0;  ///< made by steps that changed under contact forces
+  double initial_elastic_ = 0.0;                    ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
   bool stepped_ = false;  ///< SideLoads::x_before are the positions of the last search
 

@@ -47,6 +47,7 @@ PassTotals& PassTotals::operator+=(const PassTotals& b) {
   dissipated += b.dissipated;
   damped += b.damped;
   started += b.started;
+  stepped += b.stepped;
   if (b.largest_penetration > largest_penetration) {
     largest_penetration = b.largest_penetration;
     deepest_node = b.deepest_node;
@@ -237,6 +238,11 @@ void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any
   after.damping = 0.0;
   sums.totals.started += 0.5 * before.force * growth(before);
   after.force = 0.0;
+  after.push = {};
+  after.reckoned = 0;
+  after.light = 0;
+  after.stored = 0.0;
+  after.made = 0.0;
   after.rate = 0.0;
   after.acceleration = 0.0;
   if (!anchors || any) {

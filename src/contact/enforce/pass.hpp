@@ -49,28 +49,35 @@ struct NodeState {
   Vec3 normal;          ///< direction of the last contact
   Vec3 slip;            ///< return mapping: elastic slip in the anchor's facet frame; anchors: F0
   Vec3 slip_normal;     ///< return mapping: contact normal in the same frame
+  Vec3 push;            ///< normal force of the last step with what a varying stiffness adds to it, without damping
   Vec3 friction;        ///< friction force of the last step, as it acted on the surface
   SurfacePoint anchor;  ///< return mapping: last contact point; anchors: where F0 acted
   double tangential_stiffness = 0.0;
   double rate = 0.0;          ///< speed of opening in the last step
   double acceleration = 0.0;  ///< that the contact force gave to the opening
   double force = 0.0;         ///< normal force of the last step, without damping
+  double stored = 0.0;        ///< energy that it held
+  double made = 0.0;          ///< account of the pair (account.hpp): energy made since it began
   std::int32_t facet = no_index;
   std::uint8_t held = 0;     ///< 1: came over a border; 2: came through the front, its strips widen with its depth
   std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
   std::uint8_t anchored = 0;
   std::uint8_t in_front = 0;  ///< was measured in front of a facet
+  std::uint8_t reckoned = 0;  ///< `made` counts
+  std::uint8_t light = 0;     ///< its steps were once long for its stiffness
+  std::array<std::uint8_t, 6> unused{};
+  SurfacePoint last;          ///< last contact point (of a reckoned pair, of anchors)
   double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
   double damping = 0.0;       ///< damping force of the last step
   // What only some rules remember, apart from what every step of every held node touches.
-  Vec3 filtered;      ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
-  SurfacePoint last;  ///< anchors: last contact point
+  Vec3 filtered;  ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
 };
 
 struct PassTotals {
   Vec3 normal, tangential;  ///< on the held nodes
   double potential = 0.0, stick = 0.0, dissipated = 0.0, damped = 0.0;
   double started = 0.0;  ///< work of a growing gap
+  double stepped = 0.0;  ///< energy that leap-frog made by steps that changed under contact forces
   double largest_penetration = 0.0, largest_approach = 0.0;
   double kinematic_step = 1e30;
   Index kinematic_node = no_index, deepest_node = no_index;
@@ -204,6 +211,14 @@ class Pass {
   [[nodiscard]] double plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const;
   [[nodiscard]] Index swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads,
                                   Index i) const;
+  static constexpr double light_pair = 0.1;   ///< h^2 K/m of a pair, once in its contact, from which on its account is settled
+  static constexpr double step_growth = 1.2;  ///< the coming step may be longer than the last one
+  /// The step before the last one. The first step of a run has none before it.
+  [[nodiscard]] static double step_before(const HostState& host) {
+    return 2.0 * host.dt_bar_old > 1.0001 * host.dt ? 2.0 * host.dt_bar_old - host.dt : host.dt;
+  }
+  /// Velocity of a held node relative to a material point of the surface.
+  [[nodiscard]] static Vec3 velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point);
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
   /// 1/m of a node with its facet; 0: unknown
   [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;

@@ -2,25 +2,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/enforce/account.hpp"
 #include "contact/enforce/coefficient.hpp"
 #include "contact/enforce/pass.hpp"
 #include "contact/enforce/switching.hpp"
 
 namespace abut::contact {
-namespace {
-
-constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
-
-}  // namespace
+Vec3 Pass::velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point) {
+  const std::array<Index, 4>& corner = surface.surface().local()[static_cast<std::size_t>(point.facet)];
+  Vec3 v = host.v[at(held.nodes()[at(i)])];
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (point.weight[c] != 0.0) v -= point.weight[c] * host.v[at(surface.nodes()[at(corner[c])])];
+  }
+  return v;
+}
 
 Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
   Kinematics k;
-  const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  const Index node = held.nodes()[at(i)];
-  Vec3 v = host.v[at(node)];
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (touch.weight[c] != 0.0) v -= touch.weight[c] * host.v[at(surface.nodes()[at(corner[c])])];
-  }
+  const Vec3 v = velocity_over(host, held, surface, i, {touch.weight, touch.facet});
   k.rate = dot(v, touch.normal);
   k.tangential_velocity = v - k.rate * touch.normal;
   return k;
@@ -122,6 +121,16 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     }
   }
 
+  const double step_before = Pass::step_before(host);
+  double made = 0.0;  // energy that the pair has made, before this cycle's force
+  if (before.held != 0) {
+    const double by_step = made_by_changing_step(before.force, step_before, host.dt, before.rate, motion.rate);
+    totals.stepped += by_step;
+    if (before.reckoned != 0) {
+      made = before.made - before.stored + 0.5 * host.dt * dot(before.push, velocity_over(host, held, surface, i, before.last)) + by_step;
+    }
+  }
+
   if (!touch.contact) {  // history of a contact that ends: closed by the caller
     if (reaction.stiffness > 0.0) sums.reactions.push_back(reaction);
     return;
@@ -142,20 +151,49 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   // With two passes the facing surface's own springs act on this pair too, as strongly as this one where the meshes face.
   const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * pair_inverse_mass;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
+  double stored = touch.pair.potential;
+  const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
+  const bool light = lightness > light_pair || before.light != 0;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others};
+    const double coming = foreseen_step(step_before, host.dt);
+    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
-    factor = switched.force / touch.pair.magnitude;
-    totals.potential += switched.stored;
-  } else {
-    totals.potential += touch.pair.potential;
+    double force = switched.force;
+    stored = switched.stored;
+    // A light pair settles its account when it opens within the coming step, which may grow where this contact is what holds it.
+    const double longest = step_growth * host.dt;
+    const double leaves = motion.rate + 0.5 * (host.dt + longest) * (inverse_mass * touch.pair.magnitude + others);
+    if (light && leaves * longest > penetration && grown == 0.0 && (fresh ? moved_in > penetration : before.reckoned != 0)) {
+      force = last_force({motion.rate, host.dt, coming, inverse_mass, others, -made});
+      const double bound = touch.pair.stiffness * law_.force(4.0 * coming * leaves);
+      force = std::clamp(force, switched.force - bound, switched.force + bound);
+      const double rate = motion.rate + 0.5 * (host.dt + coming) * (inverse_mass * force + others);
+      stored = 0.5 * force * rate * coming + made_by_changing_step(force, host.dt, coming, motion.rate, rate);
+      if (rules.limits_step && coming < totals.kinematic_step) {
+        totals.kinematic_step = coming;
+        totals.kinematic_node = held.nodes()[at(i)];
+      }
+    }
+    factor = force / touch.pair.magnitude;
   }
+  totals.potential += stored;
   double normal_force = factor * touch.pair.magnitude;
   Vec3 on_node = factor * touch.pair.on_node;
   for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
   totals.started += 0.5 * (before.force + normal_force) * grown;
   after.force = normal_force;
+  after.push = on_node;
+  after.stored = stored;
+  // Of facets that are equally near the first stands for all.
+  after.reckoned = rules.switch_correction && (fresh || before.reckoned != 0) ? 1 : 0;
+  after.light = light ? 1 : 0;
+  after.made = 0.0;
+  if (after.reckoned != 0) {
+    after.last = {touch.weight, touch.facet};
+    const Vec3 step = host.dt * (motion.rate * touch.normal + motion.tangential_velocity);
+    if (!fresh) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
+  }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {
     const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / pair_inverse_mass);

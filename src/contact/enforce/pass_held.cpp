@@ -23,6 +23,9 @@ HeldRules Pass::held_rules(const HostState& host) const {
   r.step_factor = r.rubs ? std::sqrt(1.0 + r.friction * r.friction) : 1.0;
   r.step = host.dt;
   r.mean_step = host.dt_bar_old;
+  r.step_before = step_before(host);
+  r.longest_step = step_growth * host.dt;
+  r.light_pair = light_pair;
   r.smallest = 1e-12 * size_;
   r.pairs = two_passes_ ? 2.0 : 1.0;
   r.stiffens = law_.stiffens();
@@ -36,6 +39,7 @@ bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
   if (corner[2] == corner[3]) return false;
+  if (before.reckoned != 0 && before.last.facet != before.facet) return false;
   return !options_.rubs() || (before.anchored != 0 && before.anchor.facet == before.facet);
 }
 
@@ -56,11 +60,17 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
     batch.mass[c][k] = scene.host.mass[at(host_corner[c])];
     batch.corner_stiffness[c][k] = surface.corner_stiffness(corner[c]);
     batch.anchor[c][k] = before.anchor.weight[c];
+    batch.last[c][k] = before.last.weight[c];
   }
   const double strip = before.held == 2 ? border_strip + border_widening : border_strip;
   const double reach = surface.borders(before.facet) != 0 ? 1.0 + 2.0 * strip : 1.0;
   batch.reach[k] = reach * reach;
   batch.rate_before[k] = before.rate;
+  batch.force_before[k] = before.force;
+  batch.stored_before[k] = before.stored;
+  batch.made_before[k] = before.made;
+  batch.reckoned[k] = before.reckoned;
+  batch.light_before[k] = before.light;
   batch.acceleration_before[k] = before.acceleration;
   batch.tangential_stiffness_before[k] = before.tangential_stiffness;
   const auto put = [k](double (&to)[3][HeldBatch::size], const Vec3& v) {
@@ -68,6 +78,7 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
     to[1][k] = v.y;
     to[2][k] = v.z;
   };
+  put(batch.push_before, before.push);
   put(batch.slip_before, before.slip);
   put(batch.slip_normal_before, before.slip_normal);
 }
@@ -90,12 +101,14 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
     for (auto& one : *four) repeat(one);
   }
   for (auto& one : batch.mass) repeat(one);
-  for (auto* four : {&batch.corner_stiffness, &batch.anchor}) {
+  for (auto* four : {&batch.corner_stiffness, &batch.anchor, &batch.last}) {
     for (auto& one : *four) repeat(one);
   }
-  for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before})
+  for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before,
+                    &batch.force_before, &batch.stored_before, &batch.made_before, &batch.reckoned, &batch.light_before}) {
     repeat(*one);
-  for (auto* three : {&batch.slip_before, &batch.slip_normal_before}) {
+  }
+  for (auto* three : {&batch.slip_before, &batch.slip_normal_before, &batch.push_before}) {
     for (auto& one : *three) repeat(one);
   }
   held_kernel()(held_rules(scene.host), batch);
@@ -131,6 +144,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   }
   sums.in_contact.push_back(node);
   totals.potential += batch.potential[k];
+  totals.stepped += batch.stepped[k];
 
   Reaction reaction{before.facet, batch.step_stiffness[k], {}, {}, {}};
   for (std::size_t c = 0; c < 4; ++c) {
@@ -167,6 +181,12 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   after.offset = 0.0;
   after.damping = 0.0;
   after.force = batch.force[k];
+  after.push = on_node;
+  after.stored = batch.potential[k];
+  after.reckoned = options_.rules.switch_correction ? before.reckoned : 0;
+  after.light = batch.light[k] != 0.0 ? 1 : 0;
+  after.made = after.reckoned != 0 ? batch.made[k] : 0.0;
+  after.last = {reaction.weight, before.facet};
   after.facet = before.facet;
   after.held = before.held;
   after.ignored = 0;

@@ -87,8 +87,14 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   if (m.found()) {
     take(m);
     gap = gap_of(m.distance, after);
-    meets = !m.closest.beyond && gap - m.distance > 0.0;
-    if (!m.closest.beyond && m.distance >= 0.0) after.ignored = 0;
+    if (!m.closest.beyond && m.distance >= 0.0 && after.ignored != 0) {
+      // It came through from behind: the gap it finds itself in was never closed, and begins at what is there.
+      after.ignored = 0;
+      after.offset = std::max(after.offset, std::max(options_.gap - m.distance, 0.0));
+      gap = options_.gap - after.offset;
+    }
+    const bool all_offset = after.offset > 0.0 && after.offset >= options_.gap - m.distance;  // P is zero, whatever its rounding
+    meets = !m.closest.beyond && gap - m.distance > 0.0 && !all_offset;
     if (meets && !was_held && m.distance < 0.0 && !options_.rules.unlimited_depth) {
       const double depth = depth_[at(m.facet)];
       const double came_from = m.distance - host.dt * kinematics(host, held, surface, i, touch).rate;

@@ -12,6 +12,8 @@
 // forces as seen over the last step. With masses not given, speeds count as constant. Fixed point: contracts for h^2 K/m < 1.
 #pragma once
 
+#include <algorithm>
+
 #include "contact/enforce/law.hpp"
 
 namespace abut::contact {
@@ -24,6 +26,7 @@ struct Switching {
   double rate = 0.0;          ///< speed of opening over the last step
   double inverse_mass = 0.0;  ///< 1/m
   double others = 0.0;        ///< a
+  double coming = 0.0;        ///< h', the step that follows; 0: as long as h
 };
 
 struct Switched {
@@ -42,16 +45,22 @@ struct Switched {
   const double inwards = -s.rate * s.step;
   constexpr int iterations = 16;
   if (first && inwards > s.penetration) {
+    const double coming = s.coming > 0.0 ? s.coming : s.step;
+    const double longer = coming / s.step;
+    const double turn = 0.5 * (s.step + coming) * coming;
     double f = 0.5 * plain + stored / inwards;
     for (int i = 0; i < iterations; ++i) {
-      const double next = inwards - kick * f - drift;
+      const double next = longer * inwards - turn * (s.inverse_mass * f + s.others);
       if (s.penetration + next <= 0.0) {  // in and out again: both steps carry half of the work
         f = stored / inwards + stored / -next;
         break;
       }
-      if (inwards + next <= 0.1 * inwards) break;  // turns around: no work to correct
-      f = 2.0 * missing(s.penetration + next, next) / (inwards + next);
+      const double work = 0.25 * (1.0 + longer) * (inwards + next / longer);  // of a unit force, as it changes the speed
+      if (work <= 0.1 * inwards) break;                                       // turns around: no work to correct
+      // Long steps of a light node: the sum of the two forces cannot be had, and the account settles the rest at the end.
+      f = std::clamp(missing(s.penetration + next, next) / work, -plain, 2.0 * plain);
     }
+    f = std::min(f, 2.0 * plain);
     return {f, 0.5 * f * inwards};
   }
   const double outwards = -inwards;

@@ -3,18 +3,17 @@
 
 #include <abut/contact/interface.hpp>
 #include <cstdio>
-#include <random>
 
 #include "contact/enforce/law.hpp"
-#include "unit/contact/bench_host.hpp"
+#include "unit/contact/energy_scenes.hpp"
 
 namespace abut::contact {
 namespace {
 
-using test::flat;
-using test::grid;
-using test::Host;
-using test::set_stiffness;
+using test::Bounce;
+using test::bounces;
+using test::ClosedPathCase;
+using test::plates_meet;
 
 // T24: force = d potential/dP, tangent = d force/dP, both laws, at every P, also across the bend.
 TEST(NormalLaw, force_and_tangent_are_derivatives) {
@@ -42,41 +41,6 @@ TEST(NormalLaw, force_and_tangent_are_derivatives) {
   }
 }
 
-struct Bounce {
-  double mean = 0.0, worst = 0.0;
-};
-
-// A free node falls on a rigid surface and leaves; |CX| over its kinetic energy for random phases of the step.
-Bounce bounces(Rules rules, double gap, double hhk, double free_mass = 0.0) {
-  std::mt19937 random(17);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  const double k = 1.0, mass = 1.0, speed = 0.01;
-  const double h = std::sqrt(hhk * mass / k);
-  Bounce result;
-  const int shots = 300;
-  for (int shot = 0; shot < shots; ++shot) {
-    Host host;
-    auto facets = grid(host, 1, 1, -1, 1, -1, 1, flat, true, false, free_mass);
-    const Index n = host.add({0.1, 0.2, gap + speed * h * (2.0 + uniform(random))}, mass, {0, 0, -speed});
-    Options o;
-    o.rules = rules;
-    o.gap = gap;
-    o.stiffness_scale = 1.0;
-    Interface i = Interface::nodes_to_surface({n}, {2.0}, Surface(facets), o);
-    set_stiffness(i, 1, 1, 2.0);
-    bool touched = false;
-    for (int step = 0; step < 400; ++step) {
-      host.step(i, h);
-      touched = touched || host.last.in_contact > 0;
-      if (touched && host.last.in_contact == 0) break;
-    }
-    const double error = std::abs(host.last.made) / (0.5 * mass * speed * speed);
-    result.mean += error / shots;
-    result.worst = std::max(result.worst, error);
-  }
-  return result;
-}
-
 // Issue 3, 2: contact that starts or ends inside a step makes no energy.
 TEST(Switching, bounce_keeps_its_energy) {
   Rules plain_switch = Rules::standard();
@@ -93,42 +57,6 @@ TEST(Switching, bounce_keeps_its_energy) {
       }
     }
   }
-}
-
-// Two plates of free nodes meet flat: both passes act on every node at once.
-Bounce plates_meet(Rules rules, double gap, double hhk, double shift) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  const double k = 1.0, speed = 0.01;
-  const double h = std::sqrt(hhk / k);
-  Bounce result;
-  const int shots = 100;
-  for (int shot = 0; shot < shots; ++shot) {
-    Host host;
-    const auto lower = grid(host, 4, 4, -2, 2, -2, 2, flat, true, false, 1.0);
-    const std::size_t first = host.x.size();
-    const double start = gap + 2 * speed * h * (2.0 + uniform(random));
-    const auto upper = grid(
-        host, 4, 4, -2 + shift, 2 + shift, -2, 2, [&](double, double) { return start; }, false, false, 1.0);
-    for (std::size_t n = 0; n < host.x.size(); ++n) host.v[n].z = n < first ? speed : -speed;
-    Options o;
-    o.rules = rules;
-    o.gap = gap;
-    o.stiffness_scale = 0.5;
-    Interface i = Interface::two_surfaces(Surface(lower), Surface(upper), o);
-    set_stiffness(i, 0, lower.size(), k);
-    set_stiffness(i, 1, upper.size(), k);
-    bool touched = false;
-    for (int step = 0; step < 200; ++step) {
-      host.step(i, h);
-      touched = touched || host.last.in_contact > 0;
-      if (touched && host.last.in_contact == 0) break;
-    }
-    const double error = std::abs(host.last.made) / (0.5 * static_cast<double>(host.x.size()) * speed * speed);
-    result.mean += error / shots;
-    result.worst = std::max(result.worst, error);
-  }
-  return result;
 }
 
 TEST(Switching, plates_keep_their_energy) {
@@ -148,105 +76,57 @@ TEST(Switching, plates_keep_their_energy) {
   }
 }
 
-struct Path {
-  double net = 0.0;      ///< |CX| after the closed path
-  double largest = 0.0;  ///< largest CE on it
-};
-
-// One node dragged along a closed path without friction: CX over the lap.
-Path lap(Rules rules, double gap, const std::vector<Facet>& facets, const std::vector<double>& stiffness, Host host,
-         const std::function<Vec3(double)>& where, int steps) {
-  Options o;
-  o.rules = rules;
-  o.rules.switch_correction = false;  // a path walked at no speed
-  o.gap = gap;
-  o.stiffness_scale = 1.0;
-  const Index n = host.add(where(0.0), 1.0);
-  Interface i = Interface::nodes_to_surface({n}, {1.0}, Surface(facets), o);
-  i.set_surface(1, {stiffness, {}, {}});
-  std::vector<Vec3> x = host.x;
-  host.contact(i);
-  Path path;
-  for (int s = 1; s <= steps; ++s) {
-    x[static_cast<std::size_t>(n)] = where(static_cast<double>(s) / steps);
-    host.place(i, x);
-    path.largest = std::max(path.largest, host.last.elastic);
-  }
-  path.net = std::abs(host.last.made);
-  return path;
-}
-
-double fold_height(double x, double angle_degrees, bool convex) {
-  const double slope = std::tan(angle_degrees * std::acos(-1.0) / 360.0);  // each half by half the angle
-  return (convex ? -1.0 : 1.0) * slope * std::abs(x);
-}
-
 TEST(ClosedPath, gives_its_work_back) {
-  const double pi = std::acos(-1.0);
-  struct Case {
-    const char* name;
-    std::function<double(double, double)> height;
-    bool jump;
-    double centre_x, centre_y, rx, ry;
-  };
-  std::vector<Case> cases;
-  cases.push_back({"flat, inner edges", flat, false, 0.1, 0.05, 1.2, 0.9});
-  cases.push_back({"flat, stiffness 4:1", flat, true, 0.1, 0.05, 1.2, 0.9});
-  cases.push_back({"flat, off and over the border", flat, false, 2.2, 0.05, 1.2, 0.9});
-  cases.push_back({"flat, over the corner", flat, false, 1.9, 1.8, 1.1, 1.2});
-  for (const double angle : {10.0, 45.0, 90.0}) {
-    for (const bool convex : {true, false}) {
-      static char names[16][40];
-      static int used = 0;
-      char* name = names[used++];
-      std::snprintf(name, 40, "fold %.0f %s", angle, convex ? "convex" : "concave");
-      cases.push_back({name, [angle, convex](double x, double) { return fold_height(x, angle, convex); }, false, 0.1, 0.05, 1.2, 0.9});
-    }
-  }
-  cases.push_back(
-      {"fold 45 convex, over the border", [](double x, double) { return fold_height(x, 45.0, true); }, false, 0.1, 1.8, 1.2, 0.9});
-  cases.push_back({"saddle", [](double x, double y) { return 0.1 * x * x - 0.1 * y * y; }, false, 0.1, 0.05, 1.2, 0.9});
-  // On an inward fold the contact point jumps along the surface, and with it an interpolated stiffness: what is left of the
-  // energy jump there is of second order (fold angle x change of stiffness), measured and bounded here.
-  cases.push_back({"saddle and stiffness 4:1", [](double x, double y) { return 0.1 * x * x - 0.1 * y * y; }, true, 0.1, 0.05, 1.2, 0.9});
+  const std::vector<ClosedPathCase> cases = test::closed_path_cases();
   double worst = 0.0;
-  for (const Case& c : cases) {
-    Host host;
-    const auto facets = grid(host, 6, 6, -2.5, 2.5, -2.5, 2.5, c.height);  // the crease x = 0 is a line of nodes
-    std::vector<double> stiffness(facets.size(), 1.0);
-    if (c.jump) {
-      for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 6 < 3 ? 1.0 : 4.0;
-    }
+  for (const ClosedPathCase& c : cases) {
     for (const double gap : {0.0, 0.2}) {
       for (const double part : {0.1, 0.5, 0.9}) {
         if (gap == 0.0 && part != 0.1) continue;
         const double p = gap > 0.0 ? part * gap : 0.1;
-        const auto where = [&](double u) {
-          // Down on one spot, along three eighths of an ellipse at a changing depth, up on another, and back through the air.
-          const double lift = gap + 0.8;
-          const double a = 0.4 + 0.75 * pi * std::clamp((u - 0.15) / 0.7, 0.0, 1.0);
-          const double depth = u < 0.15 ? 1.0 - u / 0.15 : u > 0.85 ? (u - 0.85) / 0.15 : 0.0;
-          const double x = c.centre_x + c.rx * std::cos(a);
-          const double y = c.centre_y + c.ry * std::sin(a);
-          return Vec3{x, y, c.height(x, y) + gap - p * (0.8 + 0.2 * std::sin(5.0 * u)) + depth * lift};
-        };
         for (const Law law : {Law::stiffening, Law::constant}) {
           if (gap == 0.0 && law == Law::stiffening) continue;
           Rules standard = Rules::standard();
           standard.law = law;
           Rules plain = Rules::reference();
           plain.law = law;
-          const int steps = 40000;
-          const Path ours = lap(standard, gap, facets, stiffness, host, where, steps);
-          const Path theirs = lap(plain, gap, facets, stiffness, host, where, steps / 8);
-          const double net = ours.net / ours.largest;
-          std::printf("  %-34s gap %.1f P %.2f %s: net/CE %.2e (plain %.2e)\n", c.name, gap, p, law == Law::constant ? "const" : "stiff",
-                      net, theirs.largest > 0 ? theirs.net / theirs.largest : 0.0);
+          const double net = test::net_of_lap(c, standard, gap, p, 40000);
+          const double theirs = test::net_of_lap(c, plain, gap, p, 5000);
+          std::printf("  %-34s gap %.1f P %.2f %s: net/CE %.2e (plain %.2e)\n", c.name.c_str(), gap, p,
+                      law == Law::constant ? "const" : "stiff", net, theirs);
+          // On an inward fold the contact point jumps along the surface, and with it an interpolated stiffness: what is left of the
+          // energy jump there is of second order (fold angle x change of stiffness), measured and bounded here.
           const bool both = &c == &cases.back();
           if (!both) worst = std::max(worst, net);
-          EXPECT_GT(ours.largest, 0.0);
+          EXPECT_GT(net, 0.0) << c.name;  // it was in contact
           EXPECT_LE(net, both ? 6e-3 : 1e-3) << c.name;
         }
+      }
+    }
+  }
+  std::printf("  worst %.2e\n", worst);
+}
+
+// The same for a patch of nodes with facets of its own, both passes.
+TEST(ClosedPath, patch_gives_its_work_back) {
+  const std::vector<ClosedPathCase> cases = test::closed_path_cases();
+  double worst = 0.0;
+  for (const ClosedPathCase& c : cases) {
+    for (const Law law : {Law::stiffening, Law::constant}) {
+      for (const double part : {0.3, 0.8}) {
+        Rules standard = Rules::standard();
+        standard.law = law;
+        Rules plain = Rules::reference();
+        plain.law = law;
+        const double net = test::net_of_patch(c, standard, 0.2, 0.2 * part, 8000);
+        const double theirs = test::net_of_patch(c, plain, 0.2, 0.2 * part, 1000);
+        std::printf("  %-34s P %.2f Gap %s: net/CE %.2e (plain %.2e)\n", c.name.c_str(), part, law == Law::constant ? "const" : "stiff",
+                    net, theirs);
+        // As above; and in a fold of 90 degrees the patch is as wide as it is deep, so that its border comes as near as its faces.
+        const bool narrow = &c == &cases.back() || c.name == "fold 90 concave";
+        if (!narrow) worst = std::max(worst, net);
+        EXPECT_GT(net, 0.0) << c.name;
+        EXPECT_LE(net, narrow ? 8e-3 : 1e-3) << c.name;
       }
     }
   }

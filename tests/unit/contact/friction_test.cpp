@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <random>
 
-#include "unit/contact/bench_host.hpp"
+#include "unit/contact/energy_scenes.hpp"
 
 namespace abut::contact {
 namespace {
@@ -149,34 +149,10 @@ TEST(Friction, is_isotropic_on_warped_facets) {
 
 // T19: a block thrown on a rubbing surface: all its kinetic energy becomes friction work; the balance closes.
 TEST(Friction, block_slides_to_rest) {
-  Host host;
-  const auto main = grid(host, 40, 4, -1, 9, -1, 1, flat);
-  const std::size_t first = host.x.size();
-  const auto block = grid(
-      host, 3, 3, 0.0, 0.6, -0.3, 0.3, [](double, double) { return -1e-3; }, false, false, 1.0);
-  Options o;
-  o.friction = 0.3;
-  o.stiffness_scale = 1.0;
-  const double k = 2000.0;
-  Interface i = Interface::two_surfaces(Surface(main), Surface(block), o);
-  set_stiffness(i, 0, main.size(), k);
-  set_stiffness(i, 1, block.size(), k);
-  double kinetic = 0.0;
-  for (std::size_t n = first; n < host.x.size(); ++n) {
-    host.v[n] = {2.0, 0.08, 0.0};
-    kinetic += 0.5 * squared_norm(host.v[n]);
-  }
-  for (int s = 0; s < 8000; ++s) {
-    host.step(i, 1e-3, [first](Host& h) {
-      for (std::size_t n = first; n < h.x.size(); ++n) h.f[n].z -= 1.0;
-    });
-  }
-  double left = 0.0;
-  for (std::size_t n = first; n < host.x.size(); ++n) left += 0.5 * (host.v[n].x * host.v[n].x + host.v[n].y * host.v[n].y);
-  std::printf("  kinetic %.4f -> %.2e, FW %.4f, CX %.2e, CE %.2e\n", kinetic, left, host.last.friction_work, host.last.made,
-              host.last.elastic);
-  EXPECT_NEAR(host.last.friction_work, kinetic, 0.02 * kinetic);
-  EXPECT_LT(std::abs(host.last.made), 0.002 * kinetic);
+  const test::SlideToRest s = test::slide_to_rest(Rules::standard());
+  std::printf("  kinetic %.4f -> %.2e, FW %.4f, CX %.2e, CE %.2e\n", s.kinetic, s.left, s.last.friction_work, s.last.made, s.last.elastic);
+  EXPECT_NEAR(s.last.friction_work, s.kinetic, 0.02 * s.kinetic);
+  EXPECT_LT(std::abs(s.last.made), 0.002 * s.kinetic);
 }
 
 }  // namespace

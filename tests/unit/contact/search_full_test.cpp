@@ -45,7 +45,7 @@ TEST(SweptFull, hundred_thousand_shots_end_in_front) {
   double worst_flat = 0.0, worst_curved = 0.0;
   for (const double curvature : {0.0, 0.01, -0.01}) {
     const test::Shots shots = test::shoot(curvature, 17000, 77);
-    std::printf("  curvature %g: %d shots, %d caught, %d behind, worst |CX| %.3f %% of the kinetic energy\n", curvature, shots.count,
+    std::printf("  curvature %g: %d shots, %d caught, %d behind, worst change of kinetic energy %.3f %% \n", curvature, shots.count,
                 shots.caught, shots.behind, 100 * shots.worst);
     EXPECT_EQ(shots.behind, 0);
     count += shots.count;

@@ -1,0 +1,179 @@
+// Contact keeps its energy while the host's step changes: the usual h = 0.9 sqrt(2 m/K), the kinematic limit, growth by 1.1 per cycle.
+#include <gtest/gtest.h>
+
+#include <abut/contact/interface.hpp>
+#include <cstdio>
+#include <random>
+
+#include "unit/contact/bench_host.hpp"
+
+namespace abut::contact {
+namespace {
+
+using test::flat;
+using test::grid;
+using test::Host;
+using test::set_stiffness;
+
+constexpr double gap = 0.1;
+
+/// The coming step of a host whose only other limit is `longest`.
+double coming_step(const Host& host, double longest) {
+  double h = std::min(longest, host.last.kinematic_step);
+  for (std::size_t i = 0; i < host.x.size(); ++i) {
+    if (host.k[i] > 0.0 && host.m[i] > 0.0) h = std::min(h, 0.9 * std::sqrt(2.0 * host.m[i] / host.k[i]));
+  }
+  return host.dt > 0.0 ? std::min(h, 1.1 * host.dt) : h;
+}
+
+void advance(Host& host, Interface& i, double longest, const std::function<void(Host&)>& loads = {}) {
+  host.contact(i);
+  if (loads) loads(host);
+  const double h = coming_step(host, longest);
+  const double bar = 0.5 * (host.dt + h);
+  for (std::size_t n = 0; n < host.x.size(); ++n) {
+    if (host.m[n] > 0.0) host.v[n] += (bar / host.m[n]) * host.f[n];
+    host.x[n] += h * host.v[n];
+  }
+  host.before = host.dt;
+  host.dt = h;
+  host.time += h;
+}
+
+double kinetic(const Host& host) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < host.x.size(); ++n) sum += 0.5 * host.m[n] * squared_norm(host.v[n]);
+  return sum;
+}
+
+struct Change {
+  double mean = 0.0, worst = 0.0, made = 0.0;
+  int shots = 0;
+  void add(double before, double after, double by_contact) {
+    const double change = std::abs(after / before - 1.0);
+    mean = (mean * shots + change) / (shots + 1);
+    ++shots;
+    worst = std::max(worst, change);
+    made = std::max(made, std::abs(by_contact) / before);
+  }
+};
+
+/// @param deep    P / Gap that the node would reach
+/// @param flight  gaps that it flies in a step before the contact is seen
+Change node_bounces(double deep, double flight, double facet_mass, Law law) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  Change result;
+  for (int shot = 0; shot < 200; ++shot) {
+    Host host;
+    const auto facets = grid(host, 1, 1, -1, 1, -1, 1, flat, true, false, facet_mass);
+    const double shape = law == Law::stiffening ? -deep - std::log1p(-deep) : 0.5 * deep * deep;
+    const double speed = gap * std::sqrt(2.0 * shape);
+    const double longest = flight * gap / speed;
+    const Index n = host.add({0.1, 0.2, gap * (1.0 + flight * (2.0 + u(random)))}, 1.0, {0, 0, -speed});
+    Options o;
+    o.gap = gap;
+    o.rules.law = law;
+    o.stiffness_scale = 1.0;
+    Interface i = Interface::nodes_to_surface({n}, {2.0}, Surface(facets), o);
+    set_stiffness(i, 1, 1, 2.0);
+    host.dt = host.before = longest;
+    const double before = kinetic(host);
+    bool touched = false;
+    for (int step = 0; step < 4000; ++step) {
+      advance(host, i, longest);
+      touched = touched || host.last.in_contact > 0;
+      if (touched && host.last.in_contact == 0) break;
+    }
+    result.add(before, kinetic(host), host.last.made);
+  }
+  return result;
+}
+
+// A bounce keeps its energy to 0.2 %, however the step falls before the contact and rises after it.
+TEST(ChangingStep, bounce_keeps_its_energy) {
+  for (const Law law : {Law::constant, Law::stiffening}) {
+    Change all;
+    for (const double deep : {0.3, 0.6, 0.85, 0.97}) {
+      for (const double flight : {0.02, 0.2, 0.6, 2.0}) {
+        for (const double mass : {0.0, 0.5}) {
+          const Change c = node_bounces(deep, flight, mass, law);
+          EXPECT_LT(c.worst, 0.002) << deep << " " << flight << " " << mass;
+          EXPECT_LT(c.made, 0.002) << deep << " " << flight << " " << mass;
+          all.mean = std::max(all.mean, c.mean);
+          all.worst = std::max(all.worst, c.worst);
+        }
+      }
+    }
+    std::printf("  %s: kinetic energy after a bounce, largest mean %.4f %% worst %.4f %%\n",
+                law == Law::constant ? "constant" : "stiffening", 100 * all.mean, 100 * all.worst);
+  }
+}
+
+// Two free plates meet, both passes act on every node, nothing but the contact holds the step.
+TEST(ChangingStep, plates_keep_their_energy) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (const double flight : {0.02, 0.2, 0.6}) {
+    for (const double deep : {0.3, 0.8}) {
+      Change c;
+      for (int shot = 0; shot < 30; ++shot) {
+        Host host;
+        const double speed = gap * std::sqrt(2.0 * (-deep - std::log1p(-deep)));
+        const double start = gap * (1.0 + flight * (2.0 + u(random)));
+        const auto lower = grid(host, 4, 4, -2, 2, -2, 2, flat, true, false, 2.0);
+        const std::size_t first = host.x.size();
+        const auto upper = grid(
+            host, 4, 4, -2, 2, -2, 2, [start](double, double) { return start; }, false, false, 2.0);
+        for (std::size_t n = 0; n < host.x.size(); ++n) host.v[n].z = n < first ? 0.5 * speed : -0.5 * speed;
+        Options o;
+        o.gap = gap;
+        o.stiffness_scale = 0.5;
+        Interface i = Interface::two_surfaces(Surface(lower), Surface(upper), o);
+        set_stiffness(i, 0, lower.size(), 1.0);
+        set_stiffness(i, 1, upper.size(), 1.0);
+        const double longest = flight * gap / speed;
+        host.dt = host.before = longest;
+        const double before = kinetic(host);
+        bool touched = false;
+        for (int step = 0; step < 4000; ++step) {
+          advance(host, i, longest);
+          touched = touched || host.last.in_contact > 0;
+          if (touched && host.last.in_contact == 0) break;
+        }
+        c.add(before, kinetic(host), host.last.made);
+      }
+      std::printf("  %.2f gaps per step, P/Gap %.2f: kinetic energy mean %.4f %% worst %.4f %%, CX worst %.4f %%\n", flight, deep,
+                  100 * c.mean, 100 * c.worst, 100 * c.made);
+      EXPECT_LT(c.mean, 0.002) << flight << " " << deep;
+    }
+  }
+}
+
+// A light node is pressed on a stiffening contact without damping for 10^5 cycles: it goes on bouncing, no higher than it fell.
+TEST(ChangingStep, pressed_node_gains_no_speed) {
+  for (const double press : {0.05, 0.5, 3.0}) {
+    Host host;
+    const auto facets = grid(host, 1, 1, -1, 1, -1, 1, flat);
+    const double fall = 0.5 * gap;
+    const Index n = host.add({0.1, 0.2, gap + fall}, 1.0);
+    const auto at = static_cast<std::size_t>(n);
+    Options o;
+    o.gap = gap;
+    o.stiffness_scale = 1.0;
+    Interface i = Interface::nodes_to_surface({n}, {2.0}, Surface(facets), o);
+    set_stiffness(i, 1, 1, 2.0);
+    const double longest = 0.2 * std::sqrt(2.0 * fall / press);
+    double highest = 0.0, last = 0.0;
+    for (int step = 0; step < 100000; ++step) {
+      advance(host, i, longest, [at, press](Host& h) { h.f[at].z -= press; });
+      if (step > 1000) highest = std::max(highest, host.x[at].z - gap);
+      if (step > 99000) last = std::max(last, host.x[at].z - gap);
+    }
+    EXPECT_LE(highest, fall) << press;
+    std::printf("  press %.2f: fell from %.4f, highest later %.4f, in the last 1000 cycles %.4f\n", press, fall, highest, last);
+  }
+}
+
+}  // namespace
+}  // namespace abut::contact
