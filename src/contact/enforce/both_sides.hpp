@@ -69,13 +69,13 @@ class BothSides final : public InterfaceModel {
   BothSidesOptions options_;
   Side held_, surface_;
   Candidates candidates_;
-  std::vector<Vec3> held_last_, surface_last_;  // positions at the last search
+  std::vector<Vec3> held_last_, surface_last_;                 // positions at the last search
   std::vector<Index> own_;                                     // host nodes of the interface, each once, by key order of the sides
   std::vector<Index> held_own_, surface_own_;                  // side-local -> own
   std::vector<Pair> pairs_, previous_;                         // by node, then facet
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
-  std::vector<std::uint8_t> slips_;  // #held: some friction of the node is at its limit (output only, no history)
+  std::vector<std::uint8_t> slips_;                            // #held: some friction of the node is at its limit (output only, no history)
   std::vector<Index> in_contact_, scratch_;
   std::vector<std::uint8_t> off_;          // #F: without stiffness for good (drop_facets)
   double widest_ = 0.0, narrowest_ = 0.0;  // largest gap of a facet; smallest gap of any pair

@@ -10,7 +10,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr Index group = 128;           // nodes handled together (numerics.md 7.3.1)
+constexpr Index group = 128;            // nodes handled together (numerics.md 7.3.1)
 constexpr double unknown_due = -1e300;  // of a group in which some node is awake
 
 // Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
@@ -249,9 +249,7 @@ void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any
   after.acceleration = 0.0;
   if (!anchors || any) {
     // The limit falls to zero: what was stored slips away.
-    if (before.tangential_stiffness > 0.0) {
-      sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
-    }
+    if (before.tangential_stiffness > 0.0) { sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness; }
     after.anchored = 0;
     after.slip = {};
     if (!anchors) after.filtered = {};

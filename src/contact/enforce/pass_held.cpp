@@ -63,7 +63,7 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   batch.rate_before[k] = before.rate;
   batch.acceleration_before[k] = before.acceleration;
   batch.tangential_stiffness_before[k] = before.tangential_stiffness;
-  const auto put = [k](double (&to)[3][HeldBatch::size], const Vec3& v) {
+  const auto put = [k](double(&to)[3][HeldBatch::size], const Vec3& v) {
     to[0][k] = v.x;
     to[1][k] = v.y;
     to[2][k] = v.z;
@@ -93,7 +93,8 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
   for (auto* four : {&batch.corner_stiffness, &batch.anchor}) {
     for (auto& one : *four) repeat(one);
   }
-  for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before})
+  for (auto* one :
+       {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before})
     repeat(*one);
   for (auto* three : {&batch.slip_before, &batch.slip_normal_before}) {
     for (auto& one : *three) repeat(one);
@@ -112,7 +113,7 @@ bool Pass::alone(const HeldBatch& batch, int lane, Index i) const {
 
 void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {
   const auto k = static_cast<std::size_t>(lane);
-  const auto get = [k](const double (&from)[3][HeldBatch::size]) { return Vec3{from[0][k], from[1][k], from[2][k]}; };
+  const auto get = [k](const double(&from)[3][HeldBatch::size]) { return Vec3{from[0][k], from[1][k], from[2][k]}; };
   const NodeState& before = state_[at(i)];
   NodeState& after = next_[at(i)];
   PassTotals& totals = sums.totals;
