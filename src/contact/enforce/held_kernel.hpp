@@ -45,10 +45,10 @@ struct HeldBatch {
 
   // In.
   std::int32_t node[size], node_v[size], corner[4][size], corner_v[4][size];
-  double mass[5][size];                 ///< of the corners, of the node; 0: infinite
-  double corner_stiffness[4][size];     ///< K1 at the corners
-  double node_stiffness[size];          ///< K2
-  double reach[size];                   ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
+  double mass[5][size];              ///< of the corners, of the node; 0: infinite
+  double corner_stiffness[4][size];  ///< K1 at the corners
+  double node_stiffness[size];       ///< K2
+  double reach[size];                ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
   double rate_before[size], acceleration_before[size];
   double anchor[4][size];               ///< weights of the last contact point
   double force_before[size], stored_before[size], made_before[size], push_before[3][size];
@@ -60,7 +60,7 @@ struct HeldBatch {
   double ordinary[size];  ///< 1, or 0: nothing else is valid
   double squared_distance[size], distance[size], penetration[size];
   double normal[3][size], weight[4][size];
-  double force[size];      ///< |normal force|
+  double force[size];  ///< |normal force|
   double on_node[3][size], on_corner[4][3][size];
   double potential[size], step_stiffness[size];
   double rate[size], acceleration[size];

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "contact/project/plain.hpp"
 
 namespace abut::contact {
 namespace {
 
-constexpr Index group = 128;           // nodes handled together (numerics.md 7.3.1)
+constexpr Index group = 128;            // nodes handled together (numerics.md 7.3.1)
 constexpr double unknown_due = -1e300;  // of a group in which some node is awake
 
 // Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
@@ -31,8 +32,8 @@ void SideLoads::resize(std::size_t nodes) {
   loaded.resize(nodes);
 }
 
-void SideLoads::clear() {
-  for (std::size_t s = 0; s < loaded.size(); ++s) {
+void SideLoads::clear(std::size_t begin, std::size_t end) {
+  for (std::size_t s = begin; s < end; ++s) {
     if ((loaded[s] & now) == 0) continue;
     node[s] = {};
     loaded[s] &= before;
@@ -151,7 +152,14 @@ bool Pass::asleep(const Scene& scene, Index i) const {
 
 bool Pass::group_asleep(const Scene& scene, std::size_t number) const {
   if (!closest() || scene.host.dt <= 0.0 || group_due_[number] == unknown_due) return false;
-  return std::max(held_step_, coming_step_) < clearance(group_due_[number]);
+  const double clear = clearance(group_due_[number]);
+  if (!(held_step_ < clear)) return false;
+  const auto first = static_cast<Index>(number) * group;
+  double coming = 0.0;
+  for (Index i = first; i < std::min(first + group, scene.held.node_count()); ++i) {
+    coming = std::max(coming, squared_norm(scene.host.dt * scene.host.v[at(scene.held.nodes()[at(i)])] - mean_step_));
+  }
+  return coming < clear * clear;
 }
 
 void Pass::measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums) {
@@ -247,9 +255,7 @@ void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any
   after.acceleration = 0.0;
   if (!anchors || any) {
     // The limit falls to zero: what was stored slips away.
-    if (before.tangential_stiffness > 0.0) {
-      sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
-    }
+    if (before.tangential_stiffness > 0.0) { sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness; }
     after.anchored = 0;
     after.slip = {};
     if (!anchors) after.filtered = {};
@@ -280,11 +286,6 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   const Scene scene{host, held, surface, held_loads, surface_loads};
   keep_ = options_.start_duration > 0.0 ? kept_share(options_, host.time - host.dt, host.time) : 1.0;
   groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
-  if (closest()) {
-    double largest = 0.0;
-    for (const Index n : held.nodes()) largest = std::max(largest, squared_norm(host.dt * host.v[at(n)] - mean_step_));
-    coming_step_ = std::sqrt(largest);
-  }
   std::size_t added = 0;
   const auto evaluate_groups = [this, &scene, &added](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;
@@ -297,7 +298,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
     if (begin == 0) added = end;
   };
   if (executor_) {
-    executor_(groups_.size(), evaluate_groups);
+    executor_(groups_.size(), std::ref(evaluate_groups));
   } else {
     evaluate_groups(0, groups_.size());
   }

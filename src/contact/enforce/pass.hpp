@@ -33,9 +33,11 @@ struct SideLoads {
   std::vector<std::uint8_t> loaded;
   double work = 0.0;       ///< committed: sum (f_old + f_new)/2 . dx
   double work_step = 0.0;  ///< of the step that evaluate() saw
+  std::vector<double> work_parts;
 
   void resize(std::size_t nodes);
-  void clear();
+  /// Those of nodes begin to end - 1.
+  void clear(std::size_t begin, std::size_t end);
 };
 
 /// A material point of the surface.
@@ -192,7 +194,6 @@ class Pass {
   Candidates candidates_;
   IncrementalSearch incremental_;
   double held_step_ = 0.0, surface_step_ = 0.0;  ///< largest motions in the last step, relative to the surface's mean
-  double coming_step_ = 0.0;                     ///< upper bound of those of held nodes in the coming one
   Vec3 mean_step_;
   std::vector<double> group_due_;  ///< per group of nodes: smallest nearest_due() where all are quiet, else unknown_due
 

@@ -86,9 +86,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (rules.limits_step) {
     const double ahead = 1.5 * step_growth * host.dt * std::max(closing, 0.0);
     const bool may_touch = host.dt > 0.0 ? penetration + ahead > 0.0 : penetration > -0.25 * size_;
-    if (may_touch && touch.pair_open) {
-      touch.pair = force_of(held, surface, touch.measure, i, touch.gap, touch.widens);
-    }
+    if (may_touch && touch.pair_open) { touch.pair = force_of(held, surface, touch.measure, i, touch.gap, touch.widens); }
     if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
       const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
       double tangent = touch.pair.stiffness * law_.tangent(reached) + touch.pair.extra_tangent;

@@ -73,7 +73,7 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   batch.light_before[k] = before.light;
   batch.acceleration_before[k] = before.acceleration;
   batch.tangential_stiffness_before[k] = before.tangential_stiffness;
-  const auto put = [k](double (&to)[3][HeldBatch::size], const Vec3& v) {
+  const auto put = [k](double(&to)[3][HeldBatch::size], const Vec3& v) {
     to[0][k] = v.x;
     to[1][k] = v.y;
     to[2][k] = v.z;
@@ -125,7 +125,7 @@ bool Pass::alone(const HeldBatch& batch, int lane, Index i) const {
 
 void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {
   const auto k = static_cast<std::size_t>(lane);
-  const auto get = [k](const double (&from)[3][HeldBatch::size]) { return Vec3{from[0][k], from[1][k], from[2][k]}; };
+  const auto get = [k](const double(&from)[3][HeldBatch::size]) { return Vec3{from[0][k], from[1][k], from[2][k]}; };
   const NodeState& before = state_[at(i)];
   NodeState& after = next_[at(i)];
   PassTotals& totals = sums.totals;

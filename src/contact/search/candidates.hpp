@@ -27,7 +27,8 @@ class Candidates {
   /// @param motion  since the last update
   /// @param reach  #held, distance within which facets matter (< 0: this node needs none)
   /// @return true when the lists are new
-  bool update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin, bool force);
+  bool update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin,
+              bool force);
 
   /// False before the first update().
   [[nodiscard]] bool made() const { return !first_.empty(); }

@@ -21,14 +21,14 @@ struct Motion {
   [[nodiscard]] double change() const { return held + 1.5 * surface; }
 };
 
-/// Mean of x - before; zero without nodes.
-[[nodiscard]] inline Vec3 mean_motion(std::span<const Vec3> x, std::span<const Vec3> before) {
+/// Sum of x - before.
+[[nodiscard]] inline Vec3 sum_of_motions(std::span<const Vec3> x, std::span<const Vec3> before) {
   Vec3 sum{};
   for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] - before[i];
-  return x.empty() ? Vec3{} : sum / static_cast<double>(x.size());
+  return sum;
 }
 
-/// Largest |x - before - a| and |x - before - b|.
+/// Largest |x - before - a|^2 and |x - before - b|^2.
 struct TwoLargest {
   double from_a = 0.0, from_b = 0.0;
 };
@@ -39,14 +39,15 @@ struct TwoLargest {
     largest.from_a = std::max(largest.from_a, squared_norm(d - a));
     largest.from_b = std::max(largest.from_b, squared_norm(d - b));
   }
-  return {std::sqrt(largest.from_a), std::sqrt(largest.from_b)};
+  return largest;
 }
 
 /// Motion of nodes and surface since `held_before` and `surface_before`.
 [[nodiscard]] inline Motion motion_between(std::span<const Vec3> held, std::span<const Vec3> held_before, std::span<const Vec3> surface,
                                            std::span<const Vec3> surface_before) {
-  const Vec3 mean = mean_motion(surface, surface_before);
-  return {mean, largest_motion(held, held_before, mean, mean).from_a, largest_motion(surface, surface_before, mean, mean).from_a};
+  const Vec3 mean = surface.empty() ? Vec3{} : sum_of_motions(surface, surface_before) / static_cast<double>(surface.size());
+  return {mean, std::sqrt(largest_motion(held, held_before, mean, mean).from_a),
+          std::sqrt(largest_motion(surface, surface_before, mean, mean).from_a)};
 }
 
 }  // namespace abut::contact

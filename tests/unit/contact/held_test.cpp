@@ -70,17 +70,33 @@ using Column = std::vector<double>;
 /// All results of a lane; those of one that is not ordinary are not told.
 Column results(const HeldBatch& b, int k) {
   if (b.ordinary[k] == 0.0) return {0.0};
-  Column all{1.0, b.squared_distance[k], b.distance[k], b.penetration[k], b.force[k], b.potential[k], b.step_stiffness[k], b.rate[k],
-             b.acceleration[k], b.approach[k], b.kinematic_step[k], b.tangential_stiffness[k], b.stick[k], b.dissipated[k], b.slips[k]};
+  Column all{1.0,
+             b.squared_distance[k],
+             b.distance[k],
+             b.penetration[k],
+             b.force[k],
+             b.potential[k],
+             b.step_stiffness[k],
+             b.rate[k],
+             b.acceleration[k],
+             b.approach[k],
+             b.kinematic_step[k],
+             b.tangential_stiffness[k],
+             b.stick[k],
+             b.dissipated[k],
+             b.slips[k]};
   for (int c = 0; c < 3; ++c) {
-    for (const double value : {b.normal[c][k], b.on_node[c][k], b.slip[c][k], b.slip_normal[c][k], b.on_surface[c][k]}) all.push_back(value);
+    for (const double value : {b.normal[c][k], b.on_node[c][k], b.slip[c][k], b.slip_normal[c][k], b.on_surface[c][k]})
+      all.push_back(value);
     for (int i = 0; i < 4; ++i) all.push_back(b.on_corner[i][c][k]);
   }
   for (int i = 0; i < 4; ++i) all.push_back(b.weight[i][k]);
   return all;
 }
 
-bool same_bits(const Column& a, const Column& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0; }
+bool same_bits(const Column& a, const Column& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
 
 template <class T>
 void run(const HeldRules& rules, HeldBatch& b) {
@@ -127,7 +143,8 @@ TEST(HeldKernel, does_not_see_its_neighbours) {
       rotate(b.slip_normal_before[c]);
     }
     held_kernel()(turned.rules, b);
-    for (int k = 0; k + shift < HeldBatch::size; ++k) ASSERT_TRUE(same_bits(results(*all.batch, k + shift), results(b, k))) << shift << ", " << k;
+    for (int k = 0; k + shift < HeldBatch::size; ++k)
+      ASSERT_TRUE(same_bits(results(*all.batch, k + shift), results(b, k))) << shift << ", " << k;
   }
 }
 
