@@ -16,10 +16,11 @@ SIDE, DISTANCE, GAP = 0.1, 1e-3, 9e-4
 
 
 def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=True, upper_down=True, flipped=(), repeated=(), shift=0.0,
-           stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, start=0.0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0, slide=0.0):
+           stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, start=0.0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0, slide=0.0, raised=0.0,
+           loose=False):
     """Plate 1 below looks up, plate 2 above looks down, unless told otherwise."""
     mesh = Mesh()
-    low, low_nodes = mesh.plate(lambda u, w: (stretch * SIDE * u, SIDE * w, valley * abs(u - 0.5)), lower, lower)
+    low, low_nodes = mesh.plate(lambda u, w: (stretch * SIDE * u, SIDE * w, valley * abs(u - 0.5) + (raised if u > 0.7 else 0.0)), lower, lower)
     high, high_nodes = mesh.plate(lambda u, w: (shift + stretch * SIDE * u, SIDE * w, distance + (warp if u == w == 0.25 else 0.0)), upper, upper)
     deck = Deck(name, name.replace("_", " "), [story])
     deck.elastic(1, "steel", STEEL["density"], lower_young, STEEL["poisson"])
@@ -33,6 +34,8 @@ def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=T
     for k in flipped:
         faces[k] = faces[k][::-1]
     faces += [faces[k] for k in repeated]
+    if loose:
+        faces.append([low_nodes[i][j] for i, j in ((0, 0), (2, 0), (2, 2), (0, 2))])
     deck.surface_of_faces(1, "lower", faces)
     deck.surface_of_faces(2, "upper", quads(high_nodes, facing_down=upper_down))
     deck.contact(1, "plate on plate", 1, 2, friction=0, gap=gap)
@@ -94,6 +97,8 @@ DECKS = {
     "crossed": dict(story="The upper plate falls so fast that nodes would jump through the lower one in a step.", gap=0.0, speed=8000.0),
     "lost_over_border": dict(story="The upper plate is pressed on the lower one and shot sideways.", gap=3e-3, slide=1000.0, speed=600.0,
                              end=2e-5),
+    "partly_away": dict(story="A part of the lower plate has been pushed up through the upper one.", lower=8, upper=8, raised=3e-3),
+    "no_stiffness": dict(story="One segment of the lower surface is on no element.", loose=True),
     "bound_by_body": dict(story="The upper plate is a rigid body.", extra=body),
     "turned_away": dict(story="The upper plate turns over; its surface then looks up.", distance=0.054, gap=0.03, spin=2e3, end=2.2e-3, stfac=1e-9,
                         start=1.4e-3),

@@ -28,6 +28,8 @@ BEFORE = {
     "contact.interface_step": ("interface_step", "warning", "sound"),
     "contact.aspect_ratio": ("aspect_ratio", "warning", "sound"),
     "contact.warp": ("warp", "warning", "sound"),
+    "contact.partly_away": ("partly_away", "warning", "sound"),
+    "contact.no_stiffness": ("no_stiffness", "warning", "sound"),
     "contact.concave": ("concave", "note", "sound"),
     "contact.bound_by_wall": ("bound_by_wall", "warning", "sound"),
     "contact.bound_by_condition": ("bound_by_condition", "note", "sound"),

@@ -115,7 +115,7 @@ struct StepResult {
   double largest_penetration = 0.0;
   Index deepest_node = no_index;  ///< host node that has it
   Index crossed = 0;              ///< nodes that the swept test caught in this step: they would have jumped through
-  Index lost = 0;                 ///< nodes that were held and have gone over a free border with P > 0 in this step (closest points only)
+  Index lost = 0;  ///< nodes that went over a free border with P > 0 in this step, held ones or straight through (closest points only)
   double largest_approach = 0.0;  ///< normal approach in the last step, in units of gap (gap > 0)
   /// Upper limit of the coming step from kinematics (gap - P against closing speed); 1e30: none.
   double kinematic_step = 1e30;

@@ -115,6 +115,8 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
         meets = true;
         touch.fresh_hit = true;
         after.ignored = 0;
+      } else {
+        touch.lost = caught.closest.beyond;  // through the surface and over its border in one step
       }
     }
   }
@@ -131,7 +133,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   touch.pair = force_of(held, surface, m, i, gap, touch.widens);
   touch.contact = meets && touch.pair.magnitude > 0.0;
   // Still behind the gap, but where the strip of a free border has faded to nothing.
-  touch.lost = was_held && touch.penetration > 0.0 && after.ignored == 0 && touch.pair.stiffness <= 0.0;
+  touch.lost = touch.lost || (was_held && touch.penetration > 0.0 && after.ignored == 0 && touch.pair.stiffness <= 0.0);
   if (touch.contact) share_among_equals(held, surface, m, i, strip, touch, sums);
 }
 

@@ -1,5 +1,6 @@
 // The two friction rules of a pass.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "contact/enforce/friction.hpp"
@@ -56,7 +57,15 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
     increment = (fraction * host.dt) * motion.tangential_velocity;
   }
   increment -= dot(increment, touch.normal) * touch.normal;
+  // Where the stiffness has changed: a stiffer spring takes over the force, a softer one the slip; either stores less than before.
+  const double stiffness_before = before.anchored != 0 ? before.tangential_stiffness : stiffness;
+  const double stored_before = 0.5 * stiffness_before * squared_norm(elastic);
+  if (stiffness > stiffness_before) elastic = (stiffness_before / stiffness) * elastic;
   SlipResult result = slip(elastic, force_before, increment, stiffness, limit);
+  if (stiffness != stiffness_before) {
+    const double work = 0.5 * dot(force_before + stiffness * result.elastic, increment);
+    result.dissipated = std::max(0.0, work - (0.5 * stiffness * squared_norm(result.elastic) - stored_before));
+  }
   if (options_.filter.acts()) {
     // The filter holds part of the trial slip back: that part slides.
     const double a = options_.filter.weight(host.dt);
@@ -66,6 +75,7 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
     result.elastic = size > limit ? (limit / size) * filtered : filtered;
     result.dissipated = std::max(0.0, 0.5 * dot(force_before + stiffness * result.elastic, (elastic + increment) - result.elastic));
   }
+  assert(result.dissipated >= 0.0);
   totals.dissipated += result.dissipated;
   totals.stick += 0.5 * stiffness * squared_norm(result.elastic);
 

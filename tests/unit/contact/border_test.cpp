@@ -1,0 +1,199 @@
+// Free borders, and places where several facets are equally near (docs/theory/contact.md, 1).
+#include <gtest/gtest.h>
+
+#include <abut/contact/interface.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <random>
+
+#include "unit/contact/bench_host.hpp"
+
+namespace abut::contact {
+namespace {
+
+using test::flat;
+using test::grid;
+using test::Host;
+using test::set_stiffness;
+
+Options still(double gap) {
+  Options o;
+  o.gap = gap;
+  o.stiffness_scale = 1.0;
+  o.depth_limit = 0.6;
+  o.rules.switch_correction = false;  // imposed motion
+  return o;
+}
+
+// A node that came through the front lies deep behind the widened strip of a border: its force, and those on the facet's corners, are minus
+// the gradient of what is stored.
+TEST(Border, force_in_a_widened_strip_is_the_gradient) {
+  const auto bent = [](double x, double y) { return 0.05 * x * x - 0.04 * x * y; };
+  double worst = 0.0;
+  int looked = 0;
+  for (const Law law : {Law::constant, Law::stiffening}) {
+    for (const double depth : {0.05, 0.2, 0.45}) {
+      for (const double out : {0.12, 0.16, 0.22, 0.3}) {
+        Host host;
+        const auto facets = grid(host, 3, 3, -1.5, 1.5, -1.5, 1.5, bent);
+        const auto n = static_cast<std::size_t>(host.add({1.2, 0.2, bent(1.2, 0.2) + 0.01}, 1.0));
+        Options o = still(0.2);
+        o.rules.law = law;
+        const auto make = [&] {
+          Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), o);
+          set_stiffness(i, 1, facets.size(), 2.0);
+          return i;
+        };
+        Interface walk = make();
+        host.contact(walk);
+        std::vector<Vec3> x = host.x;
+        const Vec3 from = x[n];
+        const Vec3 to{1.5 + out, 0.2, bent(1.5, 0.2) - depth};
+        for (int step = 1; step <= 200; ++step) {
+          x[n] = from + (step / 200.0) * (to - from);
+          host.place(walk, x);
+        }
+        if (host.last.in_contact == 0) continue;  // beyond the end of this depth's strip
+        const auto history = walk.history();
+        const auto stored = [&](const std::vector<Vec3>& at) {
+          Interface probe = make();
+          probe.restore(history);
+          Host h = host;
+          h.x = at;
+          h.contact(probe);
+          return h;
+        };
+        const Host here = stored(host.x);
+        double scale = 0.0;
+        for (const Vec3& f : here.f) scale = std::max(scale, norm(f));
+        constexpr double d = 1e-6;
+        for (std::size_t k = 0; k < host.x.size(); ++k) {
+          for (int axis = 0; axis < 3; ++axis) {
+            std::vector<Vec3> plus = host.x, minus = host.x;
+            plus[k][axis] += d;
+            minus[k][axis] -= d;
+            const double slope = (stored(plus).last.elastic - stored(minus).last.elastic) / (2 * d);
+            worst = std::max(worst, std::abs(here.f[k][axis] + slope) / scale);
+          }
+        }
+        ++looked;
+      }
+    }
+  }
+  std::printf("  %d places, force against the gradient: %.1e of the largest force\n", looked, worst);
+  EXPECT_GE(looked, 12);
+  EXPECT_LT(worst, 2e-6);
+}
+
+// The force of a node at a tie (above an edge and a corner of several facets, in a groove, behind the top of a pyramid) does not depend on
+// how facets and nodes are numbered.
+TEST(Border, ties_do_not_depend_on_ids) {
+  const auto pyramid = [](double x, double y) { return -0.3 * std::max(std::abs(x), std::abs(y)); };
+  const auto pit = [](double x, double y) { return 0.3 * std::max(std::abs(x), std::abs(y)); };
+  const auto groove = [](double x, double) { return 0.5 * std::abs(x); };
+  struct Place {
+    const char* name;
+    std::function<double(double, double)> height;
+    Vec3 at;
+  };
+  const std::vector<Place> places{{"above an edge", flat, {0.0, 0.4, 0.05}},
+                                  {"above a corner", flat, {0.0, 0.0, 0.05}},
+                                  {"behind an edge", flat, {1.0, 0.3, -0.04}},
+                                  {"in a groove", groove, {0.0, 0.3, 0.06}},
+                                  {"in a pit", pit, {0.0, 0.0, 0.05}},
+                                  {"behind a top", pyramid, {0.0, 0.0, -0.06}},
+                                  {"above a top", pyramid, {0.0, 0.0, 0.04}},
+                                  {"behind a ridge", pyramid, {0.5, 0.5, -0.2}},
+                                  {"on the corner of the border", flat, {2, 2, 0.01}}};
+  double worst = 0.0;
+  for (const Place& place : places) {
+    Vec3 first{};
+    std::vector<Vec3> reactions;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      std::mt19937 random(seed);
+      Host sorted;
+      const auto facets = grid(sorted, 4, 4, -2, 2, -2, 2, place.height, true, true);
+      std::vector<std::size_t> to(sorted.x.size());
+      std::iota(to.begin(), to.end(), std::size_t{0});
+      std::vector<Facet> listed = facets;
+      if (seed > 0) {
+        std::shuffle(to.begin(), to.end(), random);
+        std::shuffle(listed.begin(), listed.end(), random);
+      }
+      Host host = sorted;
+      for (std::size_t k = 0; k < to.size(); ++k) host.x[to[k]] = sorted.x[k];
+      for (Facet& f : listed) {
+        for (Index& node : f.node) node = static_cast<Index>(to[static_cast<std::size_t>(node)]);
+      }
+      const auto n = static_cast<std::size_t>(host.add(place.at, 1.0));
+      Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(listed), still(0.1));
+      set_stiffness(i, 1, listed.size(), 2.0);
+      EXPECT_EQ(host.contact(i).in_contact, 1) << place.name;
+      std::vector<Vec3> f(to.size());
+      for (std::size_t k = 0; k < to.size(); ++k) f[k] = host.f[to[k]];
+      if (seed == 0) {
+        first = host.f[n];
+        reactions = f;
+        continue;
+      }
+      worst = std::max(worst, norm(host.f[n] - first) / norm(first));
+      for (std::size_t k = 0; k < to.size(); ++k) worst = std::max(worst, norm(f[k] - reactions[k]) / norm(first));
+    }
+  }
+  std::printf("  forces differ by %.1e over 20 numberings\n", worst);
+  EXPECT_LT(worst, 1e-13);
+}
+
+// A held node that slides over a free border is named in the one step in which it is lost, and no longer pushed.
+TEST(Border, lost_node_is_named_once) {
+  Host host;
+  const auto facets = grid(host, 3, 3, -1.5, 1.5, -1.5, 1.5, flat);
+  const auto n = static_cast<std::size_t>(host.add({1.0, 0.2, 0.05}, 1.0));
+  Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), still(0.1));
+  set_stiffness(i, 1, facets.size(), 2.0);
+  std::vector<Vec3> x = host.x;
+  int times = 0;
+  for (int step = 0; step < 200; ++step) {
+    x[n].x += 0.01;
+    host.place(i, x);
+    if (host.last.lost == 0) continue;
+    ++times;
+    ASSERT_EQ(i.nodes_lost().size(), 1u);
+    EXPECT_EQ(i.nodes_lost()[0], static_cast<Index>(n));
+    EXPECT_GT(x[n].x, 1.5);
+    EXPECT_EQ(norm(host.f[n]), 0.0);
+  }
+  EXPECT_EQ(times, 1);
+  EXPECT_EQ(host.last.in_contact, 0);
+}
+
+// A step through the surface near its border: held when the node is still behind the surface or its strip at the end of the step, named as
+// lost when it went through and over the border in one step, nobody's business when it passed outside of it.
+TEST(Border, steps_through_the_surface_near_its_border) {
+  struct Shot {
+    double from, to;  ///< x before and after; it passes z = 0 half way
+    int crossed, lost;
+  };
+  for (const Shot& s : {Shot{1.3, 1.4, 1, 0}, Shot{1.4, 1.56, 1, 0}, Shot{1.1, 1.8, 0, 1}, Shot{1.0, 1.9, 0, 1}, Shot{1.2, 2.4, 0, 0},
+                        Shot{1.6, 1.9, 0, 0}, Shot{1.9, 1.3, 0, 0}}) {
+    Host host;
+    const auto facets = grid(host, 3, 3, -1.5, 1.5, -1.5, 1.5, flat);
+    const auto n = static_cast<std::size_t>(host.add({s.from, 0.2, 0.8}, 1.0));
+    Options o = still(0.01);
+    o.depth_limit = 0.05;
+    Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), o);
+    set_stiffness(i, 1, facets.size(), 2.0);
+    host.dt = host.before = 1.0;
+    host.contact(i);
+    std::vector<Vec3> x = host.x;
+    x[n] = {s.to, 0.2, -0.8};
+    host.place(i, x);
+    EXPECT_EQ(host.last.crossed, s.crossed) << s.from << " " << s.to;
+    EXPECT_EQ(host.last.lost, s.lost) << s.from << " " << s.to;
+    EXPECT_EQ(host.last.in_contact, s.crossed) << s.from << " " << s.to;
+  }
+}
+
+}  // namespace
+}  // namespace abut::contact
