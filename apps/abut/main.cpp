@@ -6,6 +6,9 @@
 #include <cstdio>
 #include <exception>
 #include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "abut/run.hpp"
 #include "commands.hpp"
@@ -128,6 +131,11 @@ int main(int argc, char** argv) {
     return 1;
   }
 
+#ifdef __GLIBC__
+  // Large arrays go back to the system when they are freed: what inspection, reading and first outputs have used is not kept.
+  constexpr int large = 1 << 18;
+  mallopt(M_MMAP_THRESHOLD, large);
+#endif
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
   try {

@@ -6,6 +6,9 @@
 #include <csignal>
 #include <cstdio>
 #include <utility>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "commands.hpp"
 #include "contact_choices.hpp"
@@ -97,6 +100,9 @@ int run_command(const RunArguments& arguments) {
   try {
     Run run(model, settings);
     print_findings(run.initial_findings(), least);
+#ifdef __GLIBC__
+    malloc_trim(0);  // small pieces of what initialisation used
+#endif
     return carry_out_all(std::move(run), {arguments.quiet, arguments.timing}, later);
   } catch (const InputError& error) {
     print_findings(error.diagnostics().all(), least);

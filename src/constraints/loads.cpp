@@ -31,7 +31,7 @@ void Loads::apply(state::State& state) {
     if (!curves_->on(load.sensor, t)) continue;
     const Vec3 axis = axes_->axis(load.skew, load.direction % 3);
     const Vec3 force = curves_->scaled(load.function, load.sensor, load.scale_x, load.scale_y, t) * axis;
-    std::vector<Vec3>& target = load.direction < 3 ? state.f_external : state.m_external;
+    state::ZeroArray<Vec3>& target = load.direction < 3 ? state.f_external : state.m_external;
     for (const Index node : load.nodes) target[static_cast<std::size_t>(node)] += force;
   }
   if (!pressure_.empty()) add_pressure(state);
@@ -61,7 +61,7 @@ double Loads::book_work(const state::State& state) {
     const Vec3 axis = axes_->axis(load.skew, load.direction % 3);
     const double now = curves_->scaled(load.function, load.sensor, load.scale_x, load.scale_y, times.t);
     const double old = curves_->scaled(load.function, load.sensor, load.scale_x, load.scale_y, times.t - times.h_minus);
-    const std::vector<Vec3>& velocity = load.direction < 3 ? state.v : state.w;
+    const state::ZeroArray<Vec3>& velocity = load.direction < 3 ? state.v : state.w;
     double rate = 0.0;
     for (const Index node : load.nodes) rate += dot(velocity[static_cast<std::size_t>(node)], axis);
     work += 0.5 * (old + now) * rate * times.h_plus;

@@ -159,9 +159,11 @@ void Cycle::check_minimum_step(const elements::Group& group, const elements::Gro
 }
 
 void Cycle::fill_contact_fields() {
-  std::fill(contact_normal_.begin(), contact_normal_.end(), Vec3{});
-  std::fill(contact_tangential_.begin(), contact_tangential_.end(), Vec3{});
-  contact_state_.assign(contact_area_.size(), {});
+  const std::size_t n = state_.mass.size();
+  contact_normal_.assign(n, {});
+  contact_tangential_.assign(n, {});
+  contact_area_.assign(n, 0.0);
+  contact_state_.assign(n, {});
   for (const init::RunInterface& i : interfaces_) {
     i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
     i.contact.add_nodal_contact(contact_state_);
@@ -175,7 +177,14 @@ Snapshot Cycle::view() {
 }
 
 Snapshot Cycle::snapshot_of_cycle() {
-  if (animation_due_) fill_contact_fields();
+  if (animation_due_) {
+    fill_contact_fields();
+  } else if (!contact_normal_.empty()) {  // as large as half the state, and of use in few cycles
+    contact_normal_ = {};
+    contact_tangential_ = {};
+    contact_area_ = {};
+    contact_state_ = {};
+  }
   Snapshot s = snapshot();
   s.history_due = history_due_;
   s.animation_due = animation_due_;

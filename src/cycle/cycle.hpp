@@ -52,8 +52,8 @@ class Cycle {
   [[nodiscard]] std::span<Vec3> edit_velocities();
   [[nodiscard]] std::span<Vec3> edit_angular_velocities();
   /// Velocities with what the caller has changed.
-  [[nodiscard]] std::span<const Vec3> velocities() const { return edited_v_.empty() ? state_.v : edited_v_; }
-  [[nodiscard]] std::span<const Vec3> angular_velocities() const { return edited_w_.empty() ? state_.w : edited_w_; }
+  [[nodiscard]] std::span<const Vec3> velocities() const { return edited_v_.empty() ? std::span<const Vec3>(state_.v) : edited_v_; }
+  [[nodiscard]] std::span<const Vec3> angular_velocities() const { return edited_w_.empty() ? std::span<const Vec3>(state_.w) : edited_w_; }
   /// Everything that the next cycles depend on and that their outputs accumulate, between two cycles (cycle/persist.cpp). A cycle
   /// made from the same model that reads what another one wrote goes on with the same bits.
   void persist(state::Archive& a);
@@ -109,7 +109,7 @@ class Cycle {
   std::vector<init::RunInterface> interfaces_;
   std::vector<bool> recording_;                            // #recordings: begun
   std::vector<double> contact_stiffness_;                  // #N
-  std::vector<Vec3> contact_normal_, contact_tangential_;  // #N, filled when an animation is due
+  std::vector<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
   ContactArea contact_facets_;
   std::vector<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;

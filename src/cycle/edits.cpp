@@ -10,12 +10,12 @@
 namespace abut::cycle {
 
 std::span<Vec3> Cycle::edit_velocities() {
-  if (edited_v_.empty()) edited_v_ = state_.v;
+  if (edited_v_.empty()) edited_v_.assign(state_.v.begin(), state_.v.end());
   return edited_v_;
 }
 
 std::span<Vec3> Cycle::edit_angular_velocities() {
-  if (edited_w_.empty()) edited_w_ = state_.w;
+  if (edited_w_.empty()) edited_w_.assign(state_.w.begin(), state_.w.end());
   return edited_w_;
 }
 

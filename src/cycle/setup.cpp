@@ -37,9 +37,6 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   const auto n = static_cast<std::size_t>(model.node_count());
   recording_.assign(options.recordings.size(), false);
   contact_stiffness_.assign(n, 0.0);
-  contact_normal_.resize(n);
-  contact_tangential_.resize(n);
-  contact_area_.assign(n, 0.0);
   parts_.resize(model.parts.size());
   interface_results_.resize(model.interfaces.size());
 

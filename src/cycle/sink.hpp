@@ -42,9 +42,9 @@ struct Snapshot {
   const state::State* state = nullptr;
   const state::Balance* balance = nullptr;
   std::span<const std::unique_ptr<elements::Group>> groups;
-  std::span<const PartResult> parts;                     ///< per model part; `sums` valid when history_due
-  std::span<const InterfaceResult> interfaces;           ///< per model interface
-  std::span<const Vec3> contact_normal;                  ///< #N by 3, nodal normal contact force of all interfaces
+  std::span<const PartResult> parts;            ///< per model part; `sums` valid when history_due
+  std::span<const InterfaceResult> interfaces;  ///< per model interface
+  std::span<const Vec3> contact_normal;  ///< #N by 3, nodal normal contact force of all interfaces; these four: empty unless animation_due
   std::span<const Vec3> contact_tangential;              ///< #N by 3
   std::span<const double> contact_area;                  ///< #N, tributary area of contact surfaces (0: not on one)
   std::span<const contact::NodalContact> contact_state;  ///< #N, of all interfaces

@@ -63,7 +63,7 @@ TimeStep::Smallest TimeStep::nodal(const state::State& s, bool rotations, parall
 
 double TimeStep::scale_masses(state::State& s) {
   if (scaled_.empty() || model_.controls.nodal_minimum <= 0.0) return 0.0;
-  if (first_mass_.empty()) first_mass_ = s.mass;
+  if (first_mass_.empty()) first_mass_.assign(s.mass.begin(), s.mass.end());
   const double wanted = model_.controls.nodal_minimum / nodal_scale_;
   const double half_square = 0.5 * wanted * wanted;
   double energy = 0.0;

@@ -95,7 +95,7 @@ Array* add_array(vtkDataSetAttributes* attributes, const std::string& name, int 
 
 }  // namespace
 
-/// Cells are made once and again whenever elements have been deleted; the arrays are refilled for each state.
+/// One state, as VTK takes it. It lives until it is written: states are rare and the grid takes as much memory as the run.
 struct Animation::Grid {
   explicit Grid(const cycle::Snapshot& first);
   void take(const cycle::Snapshot& now);
@@ -113,8 +113,7 @@ struct Animation::Grid {
   void fill_cells(const cycle::Snapshot& now);
 
   AnimationFields fields_;
-  std::vector<Cell> cells_;   ///< all elements of the model
-  std::vector<Index> shown_;  ///< those that are in the grid: not deleted
+  std::vector<Cell> cells_;  ///< all elements of the model
   vtkNew<vtkUnstructuredGrid> grid_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkDoubleArray> time_;
@@ -160,11 +159,8 @@ Animation::Grid::Grid(const cycle::Snapshot& first) : fields_(select_animation_f
 }
 
 void Animation::Grid::make_cells(const std::vector<Index>& shown) {
-  shown_ = shown;
   const auto count = static_cast<vtkIdType>(shown.size());
   grid_->Allocate(count);
-  grid_->GetCellData()->Initialize();
-  cell_arrays_.clear();
   auto* element_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "element_id", 1, count);
   auto* part_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "part_id", 1, count);
   for (const CellField& field : fields_.cells) {
@@ -216,7 +212,7 @@ void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
     shown.push_back(static_cast<Index>(e));
     samples.push_back(sample);
   }
-  if (shown != shown_ || cell_arrays_.empty()) make_cells(shown);
+  make_cells(shown);
 
   std::array<double, 9> value{};
   for (std::size_t f = 0; f < fields_.cells.size(); ++f) {
@@ -235,12 +231,6 @@ void Animation::Grid::take(const cycle::Snapshot& now) {
   cycle_->SetValue(0, now.state->times.cycle);
   fill_points(now);
   fill_cells(now);
-  // Else VTK writes what it remembers of an array: the range of an earlier state, and a file that depends on how many came before.
-  for (vtkFieldData* data :
-       {grid_->GetFieldData(), static_cast<vtkFieldData*>(grid_->GetPointData()), static_cast<vtkFieldData*>(grid_->GetCellData())}) {
-    for (int i = 0; i < data->GetNumberOfArrays(); ++i) data->GetAbstractArray(i)->Modified();
-  }
-  grid_->Modified();
 }
 
 std::string Animation::Grid::encoded() const {
@@ -258,7 +248,7 @@ std::string Animation::Grid::encoded() const {
 Animation::Animation(RunFolder folder, Opening opening) : folder_(std::move(folder)), opening_(opening) {}
 Animation::~Animation() = default;
 
-void Animation::begin(const cycle::Snapshot& first) {
+void Animation::begin(const cycle::Snapshot&) {
   // States of an earlier run in this folder would be mistaken for this one's; those of a resumed run that lie beyond the
   // checkpoint are written again.
   std::error_code ignored;
@@ -273,7 +263,6 @@ void Animation::begin(const cycle::Snapshot& first) {
     if (file.starts_with(folder_.name + "_") && file.ends_with(".vtu") && !kept.contains(file)) stale.push_back(entry.path());
   }
   for (const auto& path : stale) std::filesystem::remove(path, ignored);
-  grid_ = std::make_unique<Grid>(first);
 }
 
 void Animation::cycle(const cycle::Snapshot& now) {
@@ -283,10 +272,11 @@ void Animation::cycle(const cycle::Snapshot& now) {
     if (!now.model->interfaces.empty()) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*now.model));
   }
   wait_for_writer();
-  grid_->take(now);
+  auto grid = std::make_unique<Grid>(now);
+  grid->take(now);
   times_.push_back(now.state->times.t);
-  writer_ = std::async(std::launch::async, [this, times = times_] {
-    write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid_->encoded());
+  writer_ = std::async(std::launch::async, [this, grid = std::move(grid), times = times_] {
+    write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid->encoded());
     write_index(times);
   });
 }
@@ -312,9 +302,6 @@ void Animation::persist(state::Archive& a) {
   for (; on_disk_ < times_.size(); ++on_disk_) sync_file(folder_.animation_state(static_cast<int>(on_disk_)));
 }
 
-void Animation::end(const cycle::Outcome&) {
-  wait_for_writer();
-  grid_.reset();
-}
+void Animation::end(const cycle::Outcome&) { wait_for_writer(); }
 
 }  // namespace abut::output

@@ -19,7 +19,7 @@ void put(const Vec3& v, double* out) {
   out[2] = v.z;
 }
 
-template <std::vector<Vec3> state::State::*member>
+template <state::ZeroArray<Vec3> state::State::*member>
 void write_vector(const Snapshot& s, std::size_t n, double* out) {
   put((s.state->*member)[n], out);
 }

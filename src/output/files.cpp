@@ -75,11 +75,15 @@ void sync_file(const std::filesystem::path& path) {
   if (error != 0) fail("write", path, error);
 }
 
-void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous, std::span<const std::byte> content) {
+void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous,
+                     std::initializer_list<std::span<const std::byte>> content) {
   const std::filesystem::path temporary = temporary_of(path);
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
   if (descriptor < 0) fail("write", path, errno);
-  int error = write_all(descriptor, {reinterpret_cast<const char*>(content.data()), content.size()});
+  int error = 0;
+  for (const std::span<const std::byte> piece : content) {
+    if (error == 0) error = write_all(descriptor, {reinterpret_cast<const char*>(piece.data()), piece.size()});
+  }
   if (error == 0 && ::fsync(descriptor) != 0 && errno != EINVAL) error = errno;
   if (::close(descriptor) != 0 && error == 0) error = errno;
   // A second name, not a rename: `path` names a complete file all the time.

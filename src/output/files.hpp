@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,9 +48,10 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 /// Brings a file's content to the disk (fsync): it survives the machine, not only the process. @throws RunError
 void sync_file(const std::filesystem::path& path);
 
-/// write_atomically() that also survives the machine: content, then name. What was at `path` is kept under `previous`; at every
+/// write_atomically(), of pieces, that also survives the machine: content, then name. What was at `path` is kept under `previous`; at every
 /// moment at least one of the two names a complete file. @throws RunError; what was there stays
-void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous, std::span<const std::byte> content);
+void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous,
+                     std::initializer_list<std::span<const std::byte>> content);
 
 /// Whole file. @throws RunError
 [[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& path);

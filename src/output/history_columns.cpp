@@ -33,7 +33,7 @@ Value balance_term(double state::Balance::*term) {
 
 // ---- nodes (8.4) --------------------------------------------------------------------------------------------------
 
-using NodalVectors = std::vector<Vec3> state::State::*;
+using NodalVectors = state::ZeroArray<Vec3> state::State::*;
 constexpr std::array<std::pair<std::string_view, NodalVectors>, 6> nodal_vectors{{{"D", &state::State::u},
                                                                                   {"V", &state::State::v},
                                                                                   {"A", &state::State::a},

@@ -119,7 +119,8 @@ void Run::Impl::save(const std::filesystem::path& path, const std::filesystem::p
     a.growing(memory);
     a.growing(files);
   });
-  output::replace_durably(path, previous, state::seal(a.bytes()));
+  const state::Seal seal = state::seal(a.bytes());
+  output::replace_durably(path, previous, {seal.head, a.bytes(), seal.tail});
 }
 
 void Run::Impl::restore_outputs(run::Checkpoint& from, bool resume) {

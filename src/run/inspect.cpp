@@ -18,9 +18,9 @@ class FirstCycle final : public cycle::Sink {
     for (const auto& group : now.groups) {
       for (Index e = 0; e < group->size(); ++e) part_mass_[static_cast<std::size_t>(group->part())] += group->element_mass(e);
     }
-    x = now.state->x;
-    v = now.state->v;
-    mass = now.state->mass;
+    x.assign(now.state->x.begin(), now.state->x.end());
+    v.assign(now.state->v.begin(), now.state->v.end());
+    mass.assign(now.state->mass.begin(), now.state->mass.end());
     step = now.state->times.h_plus;
   }
   void end(const cycle::Outcome&) override {}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 
 namespace abut::state {
 
@@ -20,9 +21,15 @@ Tag tag_of(std::string_view name) {
 void Archive::plain(void* data, std::size_t size) {
   if (size == 0) return;
   if (!loading_) {
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + size);
-    std::memcpy(bytes_.data() + at, data, size);
+    if (size_ + size > capacity_) {
+      capacity_ = size_ + size + size_ / 2;
+      auto* grown = static_cast<std::byte*>(std::realloc(bytes_.get(), capacity_));
+      if (grown == nullptr) throw std::bad_alloc();
+      (void)bytes_.release();
+      bytes_.reset(grown);
+    }
+    std::memcpy(bytes_.get() + size_, data, size);
+    size_ += size;
     return;
   }
   if (size > rest_.size()) throw ArchiveError("the checkpoint ends too early (in part '" + std::string(where_) + "')");
@@ -67,15 +74,15 @@ std::size_t Archive::open_section(std::string_view tag) {
   plain(stored.data(), stored.size());
   if (stored != tag_of(tag)) throw ArchiveError("the checkpoint is damaged: part '" + std::string(tag) + "' is missing");
   plain(&length, sizeof length);
-  if (!loading_) return bytes_.size();
+  if (!loading_) return size_;
   if (length > rest_.size()) throw ArchiveError("the checkpoint ends too early (in part '" + std::string(tag) + "')");
   return rest_.size() - length;  // what must be left when the part is used up
 }
 
 void Archive::close_section(std::string_view tag, std::size_t mark) {
   if (!loading_) {
-    const std::uint64_t length = bytes_.size() - mark;
-    std::memcpy(bytes_.data() + mark - sizeof length, &length, sizeof length);
+    const std::uint64_t length = size_ - mark;
+    std::memcpy(bytes_.get() + mark - sizeof length, &length, sizeof length);
   } else if (rest_.size() != mark) {
     throw ArchiveError("the checkpoint does not fit the model (part '" + std::string(tag) + "' has another length)");
   }

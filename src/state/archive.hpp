@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,7 +34,7 @@ class Archive {
   explicit Archive(std::span<const std::byte> bytes) : rest_(bytes), loading_(true) {}  ///< reads; the bytes must outlive it
 
   [[nodiscard]] bool loading() const { return loading_; }
-  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.get(), size_}; }
   /// @throws ArchiveError when something is left over
   void finish() const;
 
@@ -93,7 +95,12 @@ class Archive {
   [[nodiscard]] std::size_t open_section(std::string_view tag);
   void close_section(std::string_view tag, std::size_t mark);
 
-  std::vector<std::byte> bytes_;
+  struct Free {
+    void operator()(std::byte* p) const { std::free(p); }
+  };
+  /// Grows by realloc, which moves pages and copies nothing where memory is large: a vector would hold the state twice.
+  std::unique_ptr<std::byte, Free> bytes_;
+  std::size_t size_ = 0, capacity_ = 0;
   std::span<const std::byte> rest_;
   std::string_view where_ = "archive";
   bool loading_ = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <string>
 
 #include "state/archive.hpp"
 
@@ -19,27 +20,37 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 
+/// FNV-1a over 64-bit words, the last one filled with zeros. Any single change of a word changes it.
+class Checksum {
+ public:
+  /// @param bytes  whole words, but for the last piece
+  void add(std::span<const std::byte> bytes) {
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof hash_) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+      hash_ = (hash_ ^ word) * 0x100000001b3ULL;
+      hash_ ^= hash_ >> 32;
+    }
+  }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
 }  // namespace
 
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (std::size_t i = 0; i < bytes.size(); i += sizeof hash) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-    hash = (hash ^ word) * 0x100000001b3ULL;
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
-std::vector<std::byte> seal(std::span<const std::byte> content) {
+Seal seal(std::span<const std::byte> content) {
   const Head head{magic, checkpoint_format, 0, content.size()};
-  std::vector<std::byte> file(sizeof head + content.size() + sizeof(std::uint64_t));
-  std::memcpy(file.data(), &head, sizeof head);
-  if (!content.empty()) std::memcpy(file.data() + sizeof head, content.data(), content.size());
-  const std::uint64_t sum = checksum(std::span(file).first(file.size() - sizeof(std::uint64_t)));
-  std::memcpy(file.data() + file.size() - sizeof sum, &sum, sizeof sum);
-  return file;
+  Seal out;
+  static_assert(sizeof out.head == sizeof head);
+  std::memcpy(out.head.data(), &head, sizeof head);
+  Checksum sum;
+  sum.add(out.head);
+  sum.add(content);
+  const std::uint64_t value = sum.value();
+  std::memcpy(out.tail.data(), &value, sizeof value);
+  return out;
 }
 
 std::span<const std::byte> unseal(std::span<const std::byte> file) {
@@ -55,7 +66,9 @@ std::span<const std::byte> unseal(std::span<const std::byte> file) {
   if (file.size() < around || head.length != file.size() - around) throw ArchiveError("it was cut off");
   std::uint64_t sum = 0;
   std::memcpy(&sum, file.data() + file.size() - sizeof sum, sizeof sum);
-  if (sum != checksum(file.first(file.size() - sizeof sum))) throw ArchiveError("it is damaged: its checksum is wrong");
+  Checksum own;
+  own.add(file.first(file.size() - sizeof sum));
+  if (sum != own.value()) throw ArchiveError("it is damaged: its checksum is wrong");
   return file.subspan(sizeof head, head.length);
 }
 

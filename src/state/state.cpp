@@ -1,15 +1,17 @@
 #include "state/state.hpp"
 
+#include <span>
+
 namespace abut::state {
 
 State State::zeros(Index n) {
   const auto count = static_cast<std::size_t>(n);
   State s;
-  for (std::vector<Vec3>* array :
+  for (ZeroArray<Vec3>* array :
        {&s.x, &s.v, &s.w, &s.u, &s.a, &s.alpha, &s.f, &s.m, &s.f_internal, &s.m_internal, &s.f_external, &s.m_external, &s.f_contact}) {
     array->resize(count);
   }
-  for (std::vector<double>* array : {&s.mass, &s.inertia, &s.stiffness, &s.rotational_stiffness}) array->resize(count);
+  for (ZeroArray<double>* array : {&s.mass, &s.inertia, &s.stiffness, &s.rotational_stiffness}) array->resize(count);
   return s;
 }
 
@@ -20,11 +22,11 @@ void State::persist(Archive& a) {
   a(times.h_plus);
   a(times.h_bar);
   a(times.h_bar_old);
-  for (std::vector<Vec3>* array :
+  for (ZeroArray<Vec3>* array :
        {&x, &v, &w, &u, &this->a, &alpha, &f, &m, &f_internal, &m_internal, &f_external, &m_external, &f_contact}) {
-    a.fixed(*array);
+    a.fixed(std::span(*array));
   }
-  for (std::vector<double>* array : {&mass, &inertia, &stiffness, &rotational_stiffness}) a.fixed(*array);
+  for (ZeroArray<double>* array : {&mass, &inertia, &stiffness, &rotational_stiffness}) a.fixed(std::span(*array));
 }
 
 }  // namespace abut::state

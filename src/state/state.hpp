@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "abut/results.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "state/archive.hpp"
+#include "state/zero_array.hpp"
 
 namespace abut::state {
 
@@ -24,19 +24,19 @@ struct StepTimes {
 /// Nodal arrays, all #N (by 3), index = model node index.
 struct State {
   StepTimes times;
-  std::vector<Vec3> x;                                  ///< position t^n
-  std::vector<Vec3> u;                                  ///< displacement t^n
-  std::vector<Vec3> v;                                  ///< velocity n - 1/2
-  std::vector<Vec3> w;                                  ///< angular velocity n - 1/2
-  std::vector<Vec3> a;                                  ///< acceleration t^n
-  std::vector<Vec3> alpha;                              ///< angular acceleration t^n
-  std::vector<Vec3> f;                                  ///< total force of the cycle
-  std::vector<Vec3> m;                                  ///< total moment of the cycle
-  std::vector<Vec3> f_internal, m_internal;             ///< sum of element slots (to be subtracted)
-  std::vector<Vec3> f_external, m_external;             ///< concentrated and pressure loads
-  std::vector<Vec3> f_contact;                          ///< all interfaces
-  std::vector<double> mass, inertia;                    ///< current (scaling included)
-  std::vector<double> stiffness, rotational_stiffness;  ///< nodal sums of the cycle
+  ZeroArray<Vec3> x;                                  ///< position t^n
+  ZeroArray<Vec3> u;                                  ///< displacement t^n
+  ZeroArray<Vec3> v;                                  ///< velocity n - 1/2
+  ZeroArray<Vec3> w;                                  ///< angular velocity n - 1/2
+  ZeroArray<Vec3> a;                                  ///< acceleration t^n
+  ZeroArray<Vec3> alpha;                              ///< angular acceleration t^n
+  ZeroArray<Vec3> f;                                  ///< total force of the cycle
+  ZeroArray<Vec3> m;                                  ///< total moment of the cycle
+  ZeroArray<Vec3> f_internal, m_internal;             ///< sum of element slots (to be subtracted)
+  ZeroArray<Vec3> f_external, m_external;             ///< concentrated and pressure loads
+  ZeroArray<Vec3> f_contact;                          ///< all interfaces
+  ZeroArray<double> mass, inertia;                    ///< current (scaling included)
+  ZeroArray<double> stiffness, rotational_stiffness;  ///< nodal sums of the cycle
 
   /// Zero state of n nodes.
   [[nodiscard]] static State zeros(Index n);

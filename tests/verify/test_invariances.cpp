@@ -42,7 +42,7 @@ Result solve(const model::Model& m) {
   const auto report = abut::cycle::run(m, {}, recorder);
   EXPECT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished) << report.outcome.message;
   Result r;
-  r.u = recorder.last_state.u;
+  r.u.assign(recorder.last_state.u.begin(), recorder.last_state.u.end());
   const auto& b = recorder.samples.back().balance;
   r.energies = {b.ie, b.he, b.ke, b.ker, b.ce, b.fw};
   std::size_t latest = 0;

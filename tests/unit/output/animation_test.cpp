@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <span>
 
 #include "core/diagnostic.hpp"
 #include "output/animation_fields.hpp"
@@ -69,7 +70,7 @@ class AnimationTest : public ::testing::Test {
     sink.end({});
     return read_grid(folder_.animation_state(0));
   }
-  static void expect_vectors(vtkUnstructuredGrid* grid, const char* name, const std::vector<Vec3>& expected) {
+  static void expect_vectors(vtkUnstructuredGrid* grid, const char* name, std::span<const Vec3> expected) {
     vtkDataArray* array = grid->GetPointData()->GetArray(name);
     ASSERT_NE(array, nullptr) << name;
     ASSERT_EQ(array->GetNumberOfComponents(), 3);
