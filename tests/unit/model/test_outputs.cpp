@@ -11,13 +11,7 @@
 namespace abut::model {
 namespace {
 
-using base_deck::base_starter;
-using base_deck::build_changed;
-using base_deck::build_text;
-using base_deck::Built;
-using base_deck::integers;
-using base_deck::reals;
-using base_deck::with_line;
+using namespace base_deck;
 
 const ThRequest* find(const Model& m, ThKind kind, Id id) {
   const auto found =
@@ -62,11 +56,12 @@ TEST(Outputs, TwoGroupsOfOneObjectAreOneRequest) {
 }
 
 TEST(Outputs, ElementsWallsBodiesAndAccelerometers) {
-  const Built b = build_text(with_line(
-      base_starter, "/TH/PART/2", 0,
-      "/TH/SHELL/11\nshells\nSTRESS    THIC\n" + integers({"3", "0"}) + "plate\n/TH/BRICK/12\nbricks\nSTRESS\n" + integers({"2"}) +
-          "\n/TH/RWALL/13\nwall\nFN\n" + integers({"1"}) + "\n/TH/RBODY/14\nbody\nF         V\n" + integers({"1"}) +
-          "\n/ACCEL/5\nsensor\n" + integers({"13", "1", ""}) + reals({"1.65"}) + "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n/TH/PART/2"));
+  const Built b =
+      build_text(with_line(base_starter, "/TH/PART/2", 0,
+                           "/TH/SHELL/11\nshells\nSTRESS    THIC\n" + integers({"3", "0"}) + "plate\n/TH/BRICK/12\nbricks\nSTRESS\n" +
+                               integers({"2"}) + "\n/TH/RWALL/13\nwall\nFN\n" + integers({"1"}) + "\n/TH/RBODY/14\nbody\nF         V\n" +
+                               integers({"1"}) + "\n/ACCEL/5\nsensor\n" + integers({"13", "1", ""}) + reals({"1.65"}) +
+                               "\n/TH/ACCEL/15\nacc\nDEF\n" + integers({"5"}) + "\n/TH/PART/2"));
   ASSERT_EQ(b.messages(), std::vector<std::string>{});
   EXPECT_EQ(find(b.model, ThKind::shell, 3)->variables,
             (std::vector<std::string>{"F1", "F2", "F12", "Q1", "Q2", "M1", "M2", "M12", "THIC"}));
