@@ -6,6 +6,7 @@ usage: check_docs.py [ROOT]
 - Links between Markdown files lead to files, and to headings, that exist.
 - Tags such as [Flanagan 1981] or [Bridson et al. 2002] in docs/, include/, src/ and tests/ name an author and the year of an
   entry of docs/references.bib; with a letter (1984a) they are its key.
+- Displayed formulas stand apart from each other: without a blank line between them they would be one, which cannot be drawn.
 - Every page of docs/ can be reached from docs/index.md.
 - docs/theory/statements.md is what tools/statement_table.py writes.
 Exit status 1 if something is wrong. Standard library only.
@@ -80,6 +81,11 @@ def main():
                 targets.add(target)
                 if anchor and target in text and anchor not in anchors(text[target]):
                     faults.append(f"{where}: {link}: no such heading")
+
+    for page in pages:
+        lines = text[page].splitlines()
+        faults += [f"{page.relative_to(root)}:{n}: a formula follows another without a blank line" for n, (a, b) in enumerate(zip(lines, lines[1:]), 2)
+                   if a.endswith("$$") and a != "$$" and b.startswith("$$")]
 
     reached, front = set(), {root / "docs" / "index.md"}
     while front:

@@ -34,7 +34,7 @@ std::string when(const std::vector<int>& versions) {
 
 /// "**1** surf_ID1 1-10, surf_ID2 11-20<br>**2** ...". Three and more fields of one name in a card are a list.
 std::string fields_text(const std::vector<model::FieldSupport>& fields) {
-  if (fields.empty()) return "has a form of its own, not read by named fields";
+  if (fields.empty()) return "no cards";
   std::string text;
   std::size_t card = 0;
   for (std::size_t k = 0; k < fields.size(); ++k) {
@@ -61,8 +61,17 @@ std::string fields_text(const std::vector<model::FieldSupport>& fields) {
 
 bool chosen(const KeywordSupport& k, const std::string& word) { return k.keyword.find(word) != std::string::npos; }
 
-std::string name_of(const KeywordSupport& k) {
-  return k.types.empty() ? fmt::format("`{}`", k.keyword) : fmt::format("`{}`/ {}", k.keyword, fmt::join(k.types, ", "));
+std::string name_of(const KeywordSupport& k) { return fmt::format("`{}`", k.keyword); }
+
+/// Keywords with their types, which those that follow each other with the same ones name once.
+std::string names_of(const std::vector<KeywordSupport>& all) {
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    text += (text.empty() ? "" : ", ") + name_of(all[i]);
+    const bool last = i + 1 == all.size() || all[i + 1].types != all[i].types;
+    if (last && !all[i].types.empty()) text += fmt::format("/ {}", fmt::join(all[i].types, ", "));
+  }
+  return text;
 }
 
 std::vector<std::string> rows_of(const std::vector<KeywordSupport>& all, Treatment treatment, const std::string& word) {
@@ -103,15 +112,17 @@ int keywords_command(const KeywordsArguments& arguments) {
         "\n## Starter: read\n\nA number in bold is the card, counted without the title (of the newest layout).\n\n| keyword | cards: "
         "fields and columns "
         "|\n|---|---|\n");
-    std::string names, fields;
+    std::vector<KeywordSupport> alike;  // keywords that follow each other with the same fields share a row
+    const auto print_row = [&alike] {
+      if (!alike.empty()) fmt::print("| {} | {} |\n", names_of(alike), fields_text(alike.front().fields));
+      alike.clear();
+    };
     for (const KeywordSupport& k : starter) {
       if (k.treatment != Treatment::taken || !chosen(k, word)) continue;
-      const std::string text = fields_text(k.fields);
-      if (text != fields && !names.empty()) fmt::print("| {} | {} |\n", std::exchange(names, ""), fields);
-      names += (names.empty() ? "" : ", ") + name_of(k);
-      fields = text;
+      if (!alike.empty() && fields_text(k.fields) != fields_text(alike.front().fields)) print_row();
+      alike.push_back(k);
     }
-    fmt::print("| {} | {} |\n", names, fields);
+    print_row();
   }
   print_list("Starter: passed over, does not change the mechanics", rows_of(starter, Treatment::harmless, word));
   if (!rows_of(starter, Treatment::refused, word).empty()) {

@@ -34,7 +34,7 @@ std::string bad_unit(std::string_view code, std::size_t k) {
 std::array<bool, 3> read_units(BlockReader& r, Units& units, std::string_view prefix) {
   std::array<bool, 3> given{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::string_view code = r.text(unit_columns[k]);
+    const std::string_view code = r.text(unit_columns[k], fmt::format("{} {} unit", prefix, unit_kinds[k]));
     if (code.empty()) continue;
     given[k] = true;
     if (const std::optional<double> size = unit_size(code, unit_bases[k])) {
@@ -62,7 +62,7 @@ void set_version(Context& c, Id version, const Place& place) {
 
 void read_begin(Context& c, const deck::Block& block) {
   BlockReader r(c, block, -1, false);
-  if (r.next_card()) c.model->name = deck::printable(r.text({1, 80}));
+  if (r.next_card()) c.model->name = deck::printable(r.text({1, 80}, "name"));
   r.next_card();
   const Id version = r.integer({1, 10}, "Invers");
   set_version(c, version, r.place({1, 10}, "Invers"));
@@ -205,7 +205,9 @@ void read_control(Context& c) {
   bool title = false;
   for (const deck::Block& b : blocks) {
     if (b.is(0, "TITLE") && !std::exchange(title, true) && !b.cards.empty()) {
-      c.model->title = deck::printable(deck::trimmed(b.cards.front().text.substr(0, deck::card_width)));
+      BlockReader r(c, b, -1, false);
+      r.next_card();
+      c.model->title = deck::printable(deck::trimmed(r.text({1, 100}, "title")));
     }
     // Only the first block of each kind counts (A.12).
     if (b.is(0, "DEF_SHELL") && !std::exchange(shell_defaults, true)) read_shell_defaults(c, b);

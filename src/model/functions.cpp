@@ -21,17 +21,17 @@ void check_ascending(BlockReader& r, const Function& f) {
 void move_function(Context& c, const deck::Block& b) {
   BlockReader r(c, b, 1, true);
   if (r.id() == 0) return;
-  const auto found = c.tables.functions.find(r.id());
-  if (found == c.tables.functions.end()) {
-    c.diagnostics->error("model.unknown_reference", r.place(), fmt::format("no /FUNCT with id {} to move", r.id()));
-    return;
-  }
   r.next_card();
   const auto scale = [](double s) { return s == 0.0 ? 1.0 : s; };
   const double scale_x = scale(r.real({1, 20}, "Ascale_x"));
   const double scale_y = scale(r.real({21, 40}, "Fscale_y"));
   const double shift_x = r.real({41, 60}, "Ashift_x");
   const double shift_y = r.real({61, 80}, "Fshift_y");
+  const auto found = c.tables.functions.find(r.id());
+  if (found == c.tables.functions.end()) {
+    c.diagnostics->error("model.unknown_reference", r.place(), fmt::format("no /FUNCT with id {} to move", r.id()));
+    return;
+  }
   Function& f = c.model->functions[static_cast<std::size_t>(found->second)];
   for (double& x : f.x) x = scale_x * x + shift_x;
   for (double& y : f.y) y = scale_y * y + shift_y;
@@ -77,7 +77,7 @@ void read_moving_axes(Context& c, BlockReader& r, Skew& s, bool second_kind) {
   }
   s.direction = second_kind ? 2 : 0;
   if (!second_kind) {
-    const std::string_view direction = r.text({31, 40});
+    const std::string_view direction = r.text({31, 40}, "Dir");
     if (direction == "Y" || direction == "y") s.direction = 1;
     if (direction == "Z" || direction == "z") s.direction = 2;
     if (s.direction == 0 && !direction.empty() && direction != "X" && direction != "x") {

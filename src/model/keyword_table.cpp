@@ -16,17 +16,23 @@ namespace {
 
 constexpr std::size_t probe_cards = 12;
 
-/// A Starter deck of /BEGIN and one block whose cards are all alike.
+struct ProbeCards {
+  std::string first, others;
+};
+
+/// A Starter deck of /BEGIN and one block, whose first data card may differ from the others.
 class Probe {
  public:
-  Probe(std::vector<std::string> words, std::string_view card, int version) {
+  Probe(std::vector<std::string> words, const ProbeCards& cards, int version) {
     deck_.files = {"probe"};
     if (version < 50) {
       deck_.header = fmt::format("#RADIOSS STARTER{:>8}probe", version);
     } else {
       add({"BEGIN"}, {"probe", fmt::format("{:>10}", version), "", ""});
     }
-    add(std::move(words), std::vector<std::string>(probe_cards, std::string(card)));
+    std::vector<std::string> all(probe_cards, cards.others);
+    all[version < 50 ? 0 : 1] = cards.first;  // from 51 on a title comes before it
+    add(std::move(words), all);
   }
 
   [[nodiscard]] const deck::Deck& deck() const { return deck_; }
@@ -48,9 +54,13 @@ class Probe {
   std::deque<std::string> texts_;
 };
 
+bool of_begin(const FieldUse& use) {
+  return use.name == "name" || use.name == "Invers" || use.name.starts_with("input ") || use.name.starts_with("work ");
+}
+
 /// Lets the Starter's readers read one block. @returns the fields they looked at and what they said
-std::pair<std::vector<FieldUse>, Diagnostics> read_probe(const std::vector<std::string>& words, std::string_view card, int version) {
-  const Probe probe(words, card, version);
+std::pair<std::vector<FieldUse>, Diagnostics> read_probe(const std::vector<std::string>& words, const ProbeCards& cards, int version) {
+  const Probe probe(words, cards, version);
   Model model;
   std::pair<std::vector<FieldUse>, Diagnostics> found;
   Context c;
@@ -60,18 +70,22 @@ std::pair<std::vector<FieldUse>, Diagnostics> read_probe(const std::vector<std::
   c.field_log = &found.first;
   read_control(c);
   if (words.front() == "BEGIN") return found;
-  std::erase_if(found.first, [](const FieldUse& use) { return use.name == "Invers"; });  // of the probe's own /BEGIN
+  std::erase_if(found.first, of_begin);  // the probe has one of its own
   read_entities(c);
   return found;
 }
 
-/// Cards that make the readers take their branches: nothing, and a small number in every field.
-std::array<std::string, 4> probe_card(int version) {
-  std::array<std::string, 4> cards;
-  for (std::size_t k = 1; k < cards.size(); ++k) {
-    for (int field = 0; field < 10; ++field) cards[k] += fmt::format("{:>{}}", k, version < 50 ? 8 : 10);
+bool is_history(const std::string& keyword) { return keyword.ends_with("TH") && keyword.size() <= 4; }
+
+/// Cards that make the readers take their branches: nothing, and a small number in every field. Time histories begin with a line of names.
+std::vector<ProbeCards> probes_of(const std::string& keyword, int version) {
+  std::vector<ProbeCards> all(1);
+  for (int number = 1; number <= 3; ++number) {
+    std::string card;
+    for (int field = 0; field < 10; ++field) card += fmt::format("{:>{}}", number, version < 50 ? 8 : 10);
+    all.push_back({is_history(keyword) ? "DEF" : card, card});
   }
-  return cards;
+  return all;
 }
 
 std::vector<std::string> words_of(const KeywordSupport& k) {
@@ -86,17 +100,26 @@ std::vector<std::string> words_of(const KeywordSupport& k) {
 
 /// Second words that a reader of sets may know; which it takes is asked.
 std::vector<std::string> known_types(const std::string& keyword) {
-  static const std::set<std::string> typed{"/GRNOD", "/GRSHEL", "/GRSH3N", "/GRBRIC", "/GRPART", "/SURF", "/BOX", "/SET"};
-  if (typed.count(keyword) == 0) return {};
-  static const std::vector<std::string> candidates{
+  static const std::set<std::string> sets{"/GRNOD", "/GRSHEL", "/GRSH3N", "/GRBRIC", "/GRPART", "/SURF", "/BOX", "/SET"};
+  static const std::vector<std::string> set_types{
       "NODE", "PART",     "SUBSET", "SUBMODEL", "MAT",    "PROP",    "BOX",     "BOX2",   "SURF",   "SEG",      "LINE",
       "GENE", "GEN_INCR", "GRNOD",  "GRSHEL",   "GRSH3N", "GRBRIC",  "GRPART",  "GRQUAD", "GRTRUS", "GRBEAM",   "SHEL",
       "SH3N", "BRIC",     "RECTA",  "CYLIN",    "SPHER",  "GENERAL", "COLLECT", "PLANE",  "ELLIPS", "MDELLIPS", "DSURF"};
+  static const std::map<std::string, std::vector<std::string>> other_types{
+      {"/SKEW", {"FIX", "MOV", "MOV2"}}, {"/UNIT", {"MASS", "LENGTH", "TIME"}}, {"/RANDOM", {"GRNOD"}}, {"/SHFRA", {"V4"}}};
+  static const std::vector<std::string> history_types{"NODE",  "PART",  "SHEL",   "SH3N",  "BRIC",   "INTER",
+                                                      "RWALL", "RBODY", "SECTIO", "ACCEL", "SPRING", "GRNOD"};
+  const auto other = other_types.find(keyword);
+  const std::vector<std::string> candidates = sets.count(keyword) > 0      ? set_types
+                                              : is_history(keyword)        ? history_types
+                                              : other != other_types.end() ? other->second
+                                                                           : std::vector<std::string>{};
   std::vector<std::string> taken;
   for (const std::string& type : candidates) {
-    const Diagnostics said = read_probe({keyword.substr(1), type, "1"}, "", 2022).second;
+    const Diagnostics said = read_probe({keyword.substr(1), type, "1"}, {}, 2022).second;
     const bool refused = std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& d) {
-      return d.severity == Severity::error && (d.code == "model.unknown_type" || d.code == "model.unsupported");
+      return d.code == "model.left_out" ||
+             (d.severity == Severity::error && (d.code == "model.unknown_type" || d.code == "model.unsupported"));
     });
     if (!refused) taken.push_back(type);
   }
@@ -107,15 +130,16 @@ std::vector<std::string> known_types(const std::string& keyword) {
 std::vector<FieldSupport> fields_of(const KeywordSupport& k) {
   using Key = std::tuple<std::string, int, int>;
   std::map<Key, FieldSupport> fields;
-  const std::vector<std::string> types = k.types.empty() ? std::vector<std::string>{""} : k.types;
+  std::vector<std::string> types = k.types;
+  types.emplace_back();  // some have a form without a type too
   for (const int version : probed_versions()) {
     std::map<Key, std::size_t> card_of;  // lists repeat their fields in every card: the first one stands for all
     for (const std::string& type : types) {
       std::vector<std::string> line = words_of(k);
       if (!type.empty()) line.push_back(type);
-      line.push_back("1");
-      for (const std::string& card : probe_card(version)) {
-        for (const FieldUse& use : read_probe(line, card, version).first) {
+      if (k.keyword != "/RANDOM" || !type.empty()) line.push_back("1");
+      for (const ProbeCards& cards : probes_of(k.keyword, version)) {
+        for (const FieldUse& use : read_probe(line, cards, version).first) {
           std::size_t& first = card_of.try_emplace({use.name, use.columns.first, use.columns.last}, use.card).first->second;
           first = std::min(first, use.card);
         }
@@ -170,7 +194,7 @@ std::vector<KeywordSupport> engine_keywords() {
     const deck::Deck engine = deck::read_engine_text(
         "#RADIOSS ENGINE\n" + std::string(name.starts_with("RUN") ? "" : "/RUN/probe/1\n1.0\n") + "/" + name + "\n0.9 1e-6\n", "probe",
         said);
-    const Probe starter({"TITLE"}, "", 2022);
+    const Probe starter({"TITLE"}, {}, 2022);
     Model model;
     Context c;
     c.deck = &starter.deck();

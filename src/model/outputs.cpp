@@ -134,7 +134,7 @@ class HistoryReader {
       r.next_card();
       for (int i = 0; i < 10; ++i) {
         const deck::Columns columns{10 * i + 1, 10 * i + 10};
-        const std::string_view name = r.text(columns);
+        const std::string_view name = r.text(columns, "var");
         if (name.empty()) continue;
         any = true;
         const std::vector<std::string> expanded = th_expand(kind, name);
@@ -162,7 +162,7 @@ class HistoryReader {
       const Id id = r.integer({1, 10}, "object");
       if (id == 0) continue;
       const Index skew = kind == ThKind::node ? read_skew(r, {11, 20}, "skew_ID") : no_index;
-      add(r, kind, id, skew, std::string(r.text({21, 100})), variables);
+      add(r, kind, id, skew, std::string(r.text({21, 100}, "name")), variables);
     }
   }
 

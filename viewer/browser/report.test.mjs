@@ -101,6 +101,19 @@ test("recolour: another field has other colours, and the legend says which", asy
   await page.getByLabel("Colour by").selectOption({ label: "Contact pressure" });
 });
 
+test("every field and the parts alone are drawn: each way of colouring has a shader of its own", async () => {
+  const select = page.getByLabel("Colour by");
+  for (const label of await select.locator("option").allInnerTexts()) {
+    await select.selectOption({ label });
+    await settle(page);
+    const clip = await page.locator(".stage").boundingBox();
+    const { covered } = describe(readPng(await page.screenshot({ clip })));
+    assert.ok(covered > 0.1, `${label} covers ${covered} of the picture`);
+    assert.deepEqual(problems, [], label);
+  }
+  await select.selectOption({ label: "Contact pressure" });
+});
+
 test("deform: a larger scale moves the mesh", async () => {
   const before = await picture(page, "deform-1");
   await page.getByLabel("Scale of the deformation").fill("10");

@@ -12,6 +12,7 @@ import {
   triangles,
   type Faces,
 } from "../src/view/mesh";
+import { arrowLines } from "../src/view/arrows";
 import { pick } from "../src/view/pick";
 
 function planar(faces: number[][]): Faces {
@@ -146,4 +147,14 @@ test("a ray meets the nearest visible face and names its nearest corner", () => 
     undefined,
     "nothing behind the eye",
   );
+});
+
+test("arrows stand on the middle of a segment, along its normal by the right-hand rule, as long as 0.55 of its side", () => {
+  const square = Float32Array.from([0, 2, 2, 0, 0, 0, 2, 2, 1, 1, 1, 1]);
+  const shaft = (segment: number[]) => [...arrowLines([segment], square).slice(0, 6)];
+  const near = (found: number[], wanted: number[]) => found.forEach((x, i) => assert.ok(Math.abs(x - wanted[i]!) < 1e-6, `${found}`));
+  near(shaft([0, 1, 2, 3]), [1, 1, 1, 1, 1, 1 + 0.55 * 2]);
+  near(shaft([3, 2, 1, 0]), [1, 1, 1, 1, 1, 1 - 0.55 * 2]);
+  near(shaft([0, 1, 2, 2]), [4 / 3, 2 / 3, 1, 4 / 3, 2 / 3, 1 + 0.55 * Math.SQRT2]); // a triangle repeats its third node
+  assert.equal(arrowLines([[0, 1, 2, 3]], square).length, 18); // a shaft and two strokes at its tip
 });

@@ -11,6 +11,8 @@
 
 namespace abut::model::testing {
 
+using Strings = std::vector<std::string>;
+
 /// Owns everything a Context points to.
 struct Reading {
   Diagnostics diagnostics;

@@ -7,8 +7,6 @@
 namespace abut::model::testing {
 namespace {
 
-using Strings = std::vector<std::string>;
-
 std::string begin(const std::string& version, const Strings& input, const Strings& work) {
   return "/BEGIN\nrun\n" + field(version, 10) + "\n" + reals(input) + reals(work);
 }

@@ -9,9 +9,7 @@
 namespace abut::model {
 namespace {
 
-using base_deck::base_starter;
-using base_deck::build_text;
-using base_deck::Built;
+using namespace base_deck;
 
 Built build_engine(const std::string& engine) { return build_text(base_starter, engine); }
 Controls controls(const std::string& engine) { return build_engine(engine).model.controls; }

@@ -7,8 +7,6 @@
 namespace abut::model::testing {
 namespace {
 
-using Strings = std::vector<std::string>;
-
 std::string head() { return std::string(begin_2022) + steel + shell_property + solid_property + shell_part + solid_part; }
 
 /// Corners of the unit cube as nodes 1 to 8.

@@ -11,13 +11,7 @@
 namespace abut::model {
 namespace {
 
-using base_deck::base_starter;
-using base_deck::build_changed;
-using base_deck::build_text;
-using base_deck::Built;
-using base_deck::integers;
-using base_deck::reals;
-using base_deck::with_line;
+using namespace base_deck;
 
 const ThRequest* find(const Model& m, ThKind kind, Id id) {
   const auto found =

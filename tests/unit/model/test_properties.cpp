@@ -8,8 +8,6 @@
 namespace abut::model::testing {
 namespace {
 
-using Strings = std::vector<std::string>;
-
 std::string ten(const Strings& values) {
   std::string s;
   for (const std::string& v : values) s += field(v, 10);

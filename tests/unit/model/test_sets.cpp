@@ -10,7 +10,6 @@
 namespace abut::model::testing {
 namespace {
 
-using Strings = std::vector<std::string>;
 using Nodes = std::vector<Index>;
 
 /// n x n x n unit cubes; nodes and bricks numbered from 1 along x, then y, then z. The lowest layer is part 2, the others part 3.

@@ -9,11 +9,7 @@
 namespace abut::model {
 namespace {
 
-using base_deck::base_starter;
-using base_deck::build_changed;
-using base_deck::build_text;
-using base_deck::Built;
-using base_deck::with_line;
+using namespace base_deck;
 
 /// A row of `n` shells; its surfaces 1 and 2 share all their nodes.
 std::string shared_strip(int n) {
