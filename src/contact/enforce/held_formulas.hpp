@@ -288,7 +288,10 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     const T part = dot(axis, slip) / simd::select(turns, one + cosine, one);
     V<T> elastic = select(turns, cosine * slip + cross(axis, slip) + part * axis, slip);
     elastic = elastic - dot(elastic, n) * n;
-    const V<T> force_before = load<T>(b.tangential_stiffness_before + k) * elastic;
+    const T kt_before = load<T>(b.tangential_stiffness_before + k);
+    const V<T> force_before = kt_before * elastic;
+    const T stored_before = half * (kt_before * dot(elastic, elastic));
+    elastic = simd::select(kt_now > kt_before, kt_before / kt_now, one) * elastic;
     V<T> increment{zero, zero, zero};
     for (int i = 0; i < 4; ++i) increment = increment + (h[i] - load<T>(b.anchor[i] + k)) * corner[i];
     increment = increment - dot(increment, n) * n;
@@ -299,8 +302,11 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     const V<T> now = simd::select(slides, limit / simd::select(slides, size, one), one) * trial;
     const V<T> friction = kt_now * now;
     const T work = half * dot(force_before + friction, trial - now);
-    store(b.dissipated + k, simd::select(slides, simd::max(work, zero), zero));
-    store(b.stick + k, half * (kt_now * dot(now, now)));
+    const T stored = half * (kt_now * dot(now, now));
+    const T balance = half * dot(force_before + friction, increment) - (stored - stored_before);
+    const auto changed = (kt_now < kt_before) | (kt_now > kt_before);
+    store(b.dissipated + k, simd::max(simd::select(changed, balance, simd::select(slides, work, zero)), zero));
+    store(b.stick + k, stored);
     store(b.slips + k, simd::select(size >= T(1.0 - 1e-9) * limit, one, zero));
     store(b.tangential_stiffness + k, kt_now);
     store3(b.on_surface, k, friction);
