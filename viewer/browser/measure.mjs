@@ -3,6 +3,8 @@
 //   scrub_ms          median over jumps to all states in random order, each from the wish to the complete picture; every
 //                     state is decoded on the way
 //   scrub_again_ms    the same when all states are decoded
+//   graphics_cpu_ms   processor time of the browser's graphics process per state, mean over all of those jumps (Chromium only): it
+//                     depends less on what else the machine does
 import { missing, launch, openReport } from "./browser.mjs";
 
 const name = process.argv[3] ?? "chromium";
@@ -16,6 +18,12 @@ const warm = await browser.newPage();
 await warm.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null);
 await warm.close();
 const { page, problems } = await openReport(process.argv[2], { browser });
+const graphics = name === "chromium" ? await browser.newBrowserCDPSession() : undefined;
+const graphicsSeconds = async () => {
+  const { processInfo } = await graphics.send("SystemInfo.getProcessInfo");
+  return processInfo.find((p) => p.type === "GPU").cpuTime;
+};
+const before = graphics ? await graphicsSeconds() : 0;
 const result = await page.evaluate(async () => {
   const { abut } = window;
   const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
@@ -46,7 +54,9 @@ const result = await page.evaluate(async () => {
     scrub_ms: Math.round(median(first)),
     scrub_again_ms: Math.round(median(again)),
     slowest_ms: Math.round(Math.max(...first, ...again)),
+    jumps: first.length + again.length,
   };
 });
+if (graphics) result.graphics_cpu_ms = Math.round((1000 * ((await graphicsSeconds()) - before)) / result.jumps);
 await browser.close();
 console.log(JSON.stringify({ ...result, problems }));
