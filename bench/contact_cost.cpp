@@ -1,6 +1,7 @@
 // Cost of the contact library's search and force per held node and step, without a solver around it.
 //
-//   contact_cost [NODES_MOST] [STEPS]      CSV rows: scene, motion, nodes, facets, in_contact, ns_search, ns_force, ns_step
+//   contact_cost [NODES_MOST [STEPS [ONLY]]]   CSV rows: scene, motion, nodes, facets, in_contact, ns_search, ns_force, ns_step
+//   ONLY, e.g. flat,resting: that surface and motion alone, in the largest size (for profilers)
 //
 // Two sheets of the same number of nodes face each other in one gap (one TYPE3 interface, two passes, friction 0.1), half of the gap apart,
 // flat or as nested parts of cylinders. resting: nothing moves. sliding: the upper sheet moves by half a facet in every step, so the search
@@ -11,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <string>
 #include <vector>
 
 namespace {
@@ -109,10 +111,12 @@ void measure(bool curved, bool sliding, int nodes, int steps) {
 
 int main(int argc, char** argv) {
   const int most = argc > 1 ? std::atoi(argv[1]) : 1000000, steps = argc > 2 ? std::atoi(argv[2]) : 25;
+  const std::string only = argc > 3 ? argv[3] : "";
   std::printf("surface,motion,nodes,facets,in_contact,ns_search,ns_force,ns_step\n");
   for (const bool curved : {false, true}) {
     for (const bool sliding : {false, true}) {
-      for (int nodes = 1000; nodes <= most; nodes *= 10) measure(curved, sliding, nodes, steps);
+      if (!only.empty() && only != std::string(curved ? "curved," : "flat,") + (sliding ? "sliding" : "resting")) continue;
+      for (int nodes = only.empty() ? 1000 : most; nodes <= most; nodes *= 10) measure(curved, sliding, nodes, steps);
     }
   }
   return 0;

@@ -4,14 +4,14 @@ set(ABUT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/abut)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 
-install(TARGETS abut_contact EXPORT abutContactTargets
+install(TARGETS abut_contact abut_simd EXPORT abutContactTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT abutContactTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR})
 
 if(NOT ABUT_CONTACT_ONLY)
   set_target_properties(abut_abut PROPERTIES EXPORT_NAME abut)
   get_property(stage_targets GLOBAL PROPERTY ABUT_STAGES)
-  list(REMOVE_ITEM stage_targets abut_contact)
+  list(REMOVE_ITEM stage_targets abut_contact abut_simd)
   install(TARGETS ${stage_targets} abut_abut EXPORT abutTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT abutTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR})

@@ -150,7 +150,7 @@ std::vector<Projection> BothSides::projections(std::span<const Vec3> x, bool mov
   surface.gather(x);
   Candidates candidates;
   candidates.update(
-      held, surface, [this](Index node) { return reach(node); }, warp(surface), true);
+      held, surface, {}, [this](Index node) { return reach(node); }, warp(surface), true);
   std::vector<Vec3> move(x.size());
   std::vector<Index> scratch;
   for (Index node = 0; node < held.node_count(); ++node) {
@@ -186,7 +186,11 @@ void BothSides::search(const HostState& host) {
     const double distance = reach(node);
     return distance < 0.0 ? distance : distance + between;
   };
-  candidates_.update(held_, surface_, reach_of, 0.5 * options_.gap, stale_);
+  const bool first = held_last_.size() != held_.x().size();
+  const Motion motion = first ? Motion{} : motion_between(held_.x(), held_last_, surface_.x(), surface_last_);
+  candidates_.update(held_, surface_, motion, reach_of, 0.5 * options_.gap, stale_ || first);
+  held_last_.assign(held_.x().begin(), held_.x().end());
+  surface_last_.assign(surface_.x().begin(), surface_.x().end());
   stale_ = false;
   if (!started_) settle(acts(host));
 }

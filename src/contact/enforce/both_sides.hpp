@@ -69,6 +69,7 @@ class BothSides final : public InterfaceModel {
   BothSidesOptions options_;
   Side held_, surface_;
   Candidates candidates_;
+  std::vector<Vec3> held_last_, surface_last_;                 // positions at the last search
   std::vector<Index> own_;                                     // host nodes of the interface, each once, by key order of the sides
   std::vector<Index> held_own_, surface_own_;                  // side-local -> own
   std::vector<Pair> pairs_, previous_;                         // by node, then facet

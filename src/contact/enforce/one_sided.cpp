@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +29,10 @@ void check(const Options& o) {
   }
   if (!(o.depth_limit >= 0.0)) refuse("depth_limit must be >= 0", o.depth_limit);
 }
+
+// Sums over nodes run over pieces of so many nodes, then over the pieces: their order does not depend on threads.
+constexpr std::size_t piece = 512;
+std::size_t pieces(std::size_t nodes) { return (nodes + piece - 1) / piece; }
 
 bool canonical(const Options& o) { return o.rules.edges == Edges::closest; }
 
@@ -141,28 +146,77 @@ std::vector<Projection> OneSided::projections(std::span<const Vec3> x, bool move
 }
 
 void OneSided::set_executor(Executor executor) {
+  executor_ = executor;
   for (Pass& pass : pass_) pass.set_executor(executor);
+}
+
+template <class Body>
+void OneSided::over_pieces(std::size_t k, const Body& body) const {
+  const std::size_t nodes = at(side_[k].node_count());
+  const auto range = [nodes, &body](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) body(p * piece, std::min(nodes, (p + 1) * piece));
+  };
+  if (executor_) {
+    executor_(pieces(nodes), std::ref(range));
+  } else {
+    range(0, pieces(nodes));
+  }
 }
 
 void OneSided::search(const HostState& host) {
   if (host_nodes_ > host.x.size()) throw std::invalid_argument("contact: the host has fewer nodes than the interface");
-  for (std::size_t k = 0; k < 2; ++k) {
-    side_[k].gather(host.x);
-    if (!started_) loads_[k].x_before.assign(side_[k].x().begin(), side_[k].x().end());
-  }
+  const std::array<Motion, 2> motion = gather(host);
   if (!started_) {
     pass_[0].start(side_[0], side_[1]);
     if (two_passes_) pass_[1].start(side_[1], side_[0]);
   }
   started_ = true;
   if (host.time < options_.birth || host.time > options_.death) return;
-  pass_[0].search(side_[0], side_[1], loads_[1]);
-  if (two_passes_) pass_[1].search(side_[1], side_[0], loads_[0]);
+  // A search that no commit followed: lists and x_before then are of different positions.
+  if (!stepped_) {
+    for (Pass& pass : pass_) pass.invalidate();
+  }
+  stepped_ = false;
+  pass_[0].search(side_[0], side_[1], motion[0]);
+  if (two_passes_) pass_[1].search(side_[1], side_[0], motion[1]);
+}
+
+std::array<Motion, 2> OneSided::gather(const HostState& host) {
+  std::array<Vec3, 2> mean;
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::vector<MotionPart>& parts = parts_[k];
+    parts.resize(pieces(at(side_[k].node_count())));
+    over_pieces(k, [&](std::size_t begin, std::size_t end) {
+      side_[k].gather(host.x, begin, end);
+      const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
+      const std::span<Vec3> before = std::span(loads_[k].x_before).subspan(begin, end - begin);
+      if (!started_) std::copy(x.begin(), x.end(), before.begin());
+      parts[begin / piece].sum = sum_of_motions(x, before);
+    });
+    for (const MotionPart& part : parts) mean[k] += part.sum;
+    if (!parts.empty()) mean[k] = mean[k] / static_cast<double>(side_[k].node_count());
+  }
+  // Each side is measured against its own mean motion and against the other's.
+  std::array<TwoLargest, 2> largest;  // against the mean of side 0, of side 1
+  for (std::size_t k = 0; k < 2; ++k) {
+    over_pieces(k, [&](std::size_t begin, std::size_t end) {
+      const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
+      parts_[k][begin / piece].largest = largest_motion(x, std::span(loads_[k].x_before).subspan(begin, end - begin), mean[0], mean[1]);
+    });
+    for (const MotionPart& part : parts_[k]) {
+      largest[k].from_a = std::max(largest[k].from_a, part.largest.from_a);
+      largest[k].from_b = std::max(largest[k].from_b, part.largest.from_b);
+    }
+    largest[k] = {std::sqrt(largest[k].from_a), std::sqrt(largest[k].from_b)};
+  }
+  return {Motion{mean[1], largest[0].from_b, largest[1].from_b}, Motion{mean[0], largest[1].from_a, largest[0].from_a}};
 }
 
 StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   const bool awake = host.time >= options_.birth && host.time <= options_.death;
-  for (SideLoads& loads : loads_) loads.clear();
+  for (std::size_t k = 0; k < 2; ++k) {
+    over_pieces(k, [&loads = loads_[k]](std::size_t begin, std::size_t end) { loads.clear(begin, end); });
+  }
   std::array<PassTotals, 2> total;
   if (awake) {
     total[0] = pass_[0].evaluate(host, side_[0], side_[1], loads_[0], loads_[1]);
@@ -173,15 +227,21 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
 
   for (std::size_t k = 0; k < 2; ++k) {
     SideLoads& loads = loads_[k];
+    loads.work_parts.resize(pieces(loads.node.size()));
+    over_pieces(k, [&](std::size_t begin, std::size_t end) {
+      double work = 0.0;
+      for (std::size_t s = begin; s < end; ++s) {
+        if (loads.loaded[s] == 0) continue;
+        const Vec3 f = loads.node[s].total();
+        work += dot(0.5 * (loads.force_before[s] + f), side_[k].x()[s] - loads.x_before[s]);
+        const std::size_t node = at(side_[k].nodes()[s]);
+        force[node] += f;
+        stiffness[node] += loads.node[s].own_stiffness + loads.node[s].reaction_stiffness;
+      }
+      loads.work_parts[begin / piece] = work;
+    });
     loads.work_step = 0.0;
-    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
-      if (loads.loaded[s] == 0) continue;
-      const Vec3 f = loads.total(s);
-      loads.work_step += dot(0.5 * (loads.force_before[s] + f), side_[k].x()[s] - loads.x_before[s]);
-      const std::size_t node = at(side_[k].nodes()[s]);
-      force[node] += f;
-      stiffness[node] += loads.own_stiffness[s] + loads.reaction_stiffness[s];
-    }
+    for (const double work : loads.work_parts) loads.work_step += work;
   }
 
   StepResult result;
@@ -226,13 +286,16 @@ void OneSided::commit(double) {
     SideLoads& loads = loads_[k];
     loads.work += loads.work_step;
     loads.work_step = 0.0;
-    for (std::size_t s = 0; s < loads.own_normal.size(); ++s) {
-      if (loads.loaded[s] == 0) continue;
-      loads.force_before[s] = loads.total(s);
-      loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
-    }
-    std::copy(side_[k].x().begin(), side_[k].x().end(), loads.x_before.begin());
+    over_pieces(k, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        loads.x_before[s] = side_[k].x()[s];
+        if (loads.loaded[s] == 0) continue;
+        loads.force_before[s] = loads.node[s].total();
+        loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
+      }
+    });
   }
+  stepped_ = true;
   friction_work_ += friction_step_;
   friction_step_ = 0.0;
   damping_work_ += damping_step_;
@@ -245,10 +308,11 @@ void OneSided::commit(double) {
 
 void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
   for (std::size_t k = 0; k < 2; ++k) {
-    for (std::size_t s = 0; s < loads_[k].own_normal.size(); ++s) {
+    for (std::size_t s = 0; s < loads_[k].node.size(); ++s) {
       const std::size_t node = at(side_[k].nodes()[s]);
-      normal[node] += loads_[k].own_normal[s] + loads_[k].reaction_normal[s];
-      tangential[node] += loads_[k].own_tangential[s] + loads_[k].reaction_tangential[s];
+      const SideLoads::Node& load = loads_[k].node[s];
+      normal[node] += load.own_normal + load.reaction_normal;
+      tangential[node] += load.own_tangential + load.reaction_tangential;
     }
   }
 }
@@ -297,13 +361,14 @@ void OneSided::load(HistoryReader& in) {
   in.get(start_work_);
   in.get(stepped_work_);
   for (std::size_t k = 0; k < 2; ++k) {
-    loads_[k].clear();  // an evaluation that was not committed leaves nothing behind
+    loads_[k].clear(0, loads_[k].loaded.size());  // an evaluation that was not committed leaves nothing behind
     in.get(loads_[k].work);
     in.get_all(loads_[k].force_before);
     in.get_all(loads_[k].x_before);
     std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), static_cast<std::uint8_t>(SideLoads::now | SideLoads::before));
   }
   for (Pass& pass : pass_) pass.load(in);
+  stepped_ = false;
 }
 
 }  // namespace abut::contact

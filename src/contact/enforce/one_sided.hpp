@@ -34,14 +34,26 @@ class OneSided final : public InterfaceModel {
   std::size_t host_nodes_ = 0;  ///< that the host must have at least
   std::array<Side, 2> side_;
   std::array<SideLoads, 2> loads_;
+  Executor executor_;
+  struct MotionPart {
+    Vec3 sum;
+    TwoLargest largest;
+  };
+  std::array<std::vector<MotionPart>, 2> parts_;
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
   std::vector<Index> in_contact_, crossed_, lost_;
   double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0, start_work_ = 0.0, start_step_ = 0.0;
   double stepped_work_ = 0.0, stepped_step_ = 0.0;  ///< made by steps that changed under contact forces
   double initial_elastic_ = 0.0;                    ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
+  bool stepped_ = false;  ///< SideLoads::x_before are the positions of the last search
 
   void prepare();
+  /// The host's positions, and how far they are from those of the last step, for each pass.
+  std::array<Motion, 2> gather(const HostState& host);
+  /// body(begin, end) over all nodes of side k in consecutive pieces of `piece` nodes (the last one is shorter), on the executor's threads.
+  template <class Body>
+  void over_pieces(std::size_t k, const Body& body) const;
   void project(Side& held, Side& surface, bool move_surface, std::vector<Vec3>& moved) const;
 };
 

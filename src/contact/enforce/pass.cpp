@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "contact/project/plain.hpp"
 
 namespace abut::contact {
 namespace {
 
-constexpr Index group = 128;  // nodes handled together (numerics.md 7.3.1)
+constexpr Index group = 128;            // nodes handled together (numerics.md 7.3.1)
+constexpr double unknown_due = -1e300;  // of a group in which some node is awake
 
 // Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
 // after birth, which begins and ends at no speed.
@@ -25,18 +27,15 @@ double kept_share(const Options& options, double before, double now) {
 }  // namespace
 
 void SideLoads::resize(std::size_t nodes) {
-  for (std::vector<Vec3>* v : {&own_normal, &own_tangential, &reaction_normal, &reaction_tangential, &force_before, &x_before})
-    v->resize(nodes);
-  own_stiffness.resize(nodes);
-  reaction_stiffness.resize(nodes);
+  node.resize(nodes);
+  for (std::vector<Vec3>* v : {&force_before, &x_before}) v->resize(nodes);
   loaded.resize(nodes);
 }
 
-void SideLoads::clear() {
-  for (std::size_t s = 0; s < loaded.size(); ++s) {
+void SideLoads::clear(std::size_t begin, std::size_t end) {
+  for (std::size_t s = begin; s < end; ++s) {
     if ((loaded[s] & now) == 0) continue;
-    own_normal[s] = own_tangential[s] = reaction_normal[s] = reaction_tangential[s] = {};
-    own_stiffness[s] = reaction_stiffness[s] = 0.0;
+    node[s] = {};
     loaded[s] &= before;
   }
 }
@@ -118,7 +117,7 @@ void Pass::limit_depths() {
   }
 }
 
-void Pass::search(const Side& held, const Side& surface, const SideLoads& surface_loads) {
+void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
   if (!closest()) {
     incremental_.update(held, surface, tracked_, options_.gap);
     return;
@@ -136,17 +135,12 @@ void Pass::search(const Side& held, const Side& surface, const SideLoads& surfac
         s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
     return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
   };
-  candidates_.update(held, surface, reach_of, skin_, stale_);
+  const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_);
+  if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);
   stale_ = false;
-  surface_step_ = 0.0;
-  mean_step_ = {};
-  if (surface.node_count() == 0) return;
-  for (std::size_t s = 0; s < surface.x().size(); ++s) mean_step_ += surface.x()[s] - surface_loads.x_before[s];
-  mean_step_ = mean_step_ / static_cast<double>(surface.x().size());
-  for (std::size_t s = 0; s < surface.x().size(); ++s) {
-    surface_step_ = std::max(surface_step_, squared_norm(surface.x()[s] - surface_loads.x_before[s] - mean_step_));
-  }
-  surface_step_ = std::sqrt(surface_step_);
+  mean_step_ = motion.mean;
+  held_step_ = motion.held;
+  surface_step_ = motion.surface;
 }
 
 bool Pass::asleep(const Scene& scene, Index i) const {
@@ -156,67 +150,134 @@ bool Pass::asleep(const Scene& scene, Index i) const {
   return far(scene.host, scene.held, scene.held_loads, i);
 }
 
-void Pass::evaluate_group(const Scene& scene, Index first, std::span<Touch> touches, GroupSums& sums) {
+bool Pass::group_asleep(const Scene& scene, std::size_t number) const {
+  if (!closest() || scene.host.dt <= 0.0 || group_due_[number] == unknown_due) return false;
+  const double clear = clearance(group_due_[number]);
+  if (!(held_step_ < clear)) return false;
+  const auto first = static_cast<Index>(number) * group;
+  double coming = 0.0;
+  for (Index i = first; i < std::min(first + group, scene.held.node_count()); ++i) {
+    coming = std::max(coming, squared_norm(scene.host.dt * scene.host.v[at(scene.held.nodes()[at(i)])] - mean_step_));
+  }
+  return coming < clear * clear;
+}
+
+void Pass::measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums) {
   const auto& [host, held, surface, held_loads, surface_loads] = scene;
-  const bool anchors = options_.rules.reference_friction;
+  next_[at(i)] = state_[at(i)];
+  if (closest()) {
+    measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
+  } else {
+    measure_plain(held, surface, i, touch);
+  }
+}
+
+// Nodes in contact as well as others: those that are ordinary by the batch, the rest one by one. All sums run in the order of the nodes.
+void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, HeldBatch& batch, GroupSums& sums) {
+  const auto& [host, held, surface, held_loads, surface_loads] = scene;
+  const Index first = static_cast<Index>(number) * group;
+  const Index last = std::min(first + group, held.node_count());
   sums.totals = {};
   sums.reactions.clear();
   for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
   sums.equals.clear();
+  if (group_asleep(scene, number)) return;
+  constexpr int none = -1;
+  const bool batches = in_batches(host);
+  const Index block = batches ? HeldBatch::size : group;
   std::array<Index, at(group)> nodes;
-  std::size_t count = 0;
-  bool any = false;
-  const Index last = std::min(first + group, held.node_count());
-  for (Index i = first; i < last; ++i) {
-    if (asleep(scene, i)) continue;
-    Touch& touch = touches[count];
-    nodes[count++] = i;
-    next_[at(i)] = state_[at(i)];
-    if (closest()) {
-      measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
-    } else {
-      measure_plain(held, surface, i, touch);
-    }
-    any = any || touch.contact;
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index i = nodes[k];
-    Touch& touch = touches[k];
-    // 7.4.3: anchors are looked at only in groups in which somebody touches.
-    finish_node(host, held, surface, held_loads, i, touch, any, sums);
-    NodeState& after = next_[at(i)];
-    quiet_[at(i)] = awake;
-    if (touch.contact) continue;
-    if (touch.lost) sums.lost.push_back(held.nodes()[at(i)]);
-    const NodeState& before = state_[at(i)];
-    after.held = 0;
-    // The last damping force acts over half of the step that ends the contact.
-    if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * host.dt);
-    after.damping = 0.0;
-    sums.totals.started += 0.5 * before.force * growth(before);
-    after.force = 0.0;
-    after.push = {};
-    after.reckoned = 0;
-    after.light = 0;
-    after.stored = 0.0;
-    after.made = 0.0;
-    after.rate = 0.0;
-    after.acceleration = 0.0;
-    if (!anchors || any) {
-      // The limit falls to zero: what was stored slips away.
-      if (before.tangential_stiffness > 0.0) {
-        sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
+  std::array<int, at(group)> lane;
+  for (Index begin = first; begin < last; begin += block) {
+    std::size_t count = 0;
+    bool any = false;
+    batch.count = 0;
+    for (Index i = begin; i < std::min(begin + block, last); ++i) {
+      if (asleep(scene, i)) continue;
+      lane[count] = none;
+      if (batches && may_be_ordinary(scene, i)) {
+        lane[count] = batch.count;
+        put_in(scene, i, batch);
+      } else {
+        measure(scene, i, touches[count], sums);
+        any = any || touches[count].contact;
       }
-      after.anchored = 0;
-      after.slip = {};
-      if (!anchors) after.filtered = {};
-      after.friction = {};
-      after.tangential_stiffness = 0.0;
+      nodes[count++] = i;
     }
-    if (!closest()) continue;
-    const bool nothing = candidates_.of(i).empty();
-    if ((touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
-      quiet_[at(i)] = nothing ? nothing_listed : in_front;
+    if (batch.count > 0) run_batch(scene, batch);
+    for (std::size_t k = 0; k < count && batch.count > 0; ++k) {
+      const Index i = nodes[k];
+      if (lane[k] == none) continue;
+      const bool ordinary = batch.ordinary[lane[k]] != 0.0;
+      if (ordinary && alone(batch, lane[k], i)) continue;
+      Touch& touch = touches[k];
+      measure(scene, i, touch, sums);
+      any = any || touch.contact;
+      const bool same = ordinary && touch.contact && touch.facet == state_[at(i)].facet && touch.equals == 0;
+      if (!same) lane[k] = none;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const Index i = nodes[k];
+      quiet_[at(i)] = awake;
+      if (lane[k] != none) {
+        finish_ordinary(scene, batch, lane[k], i, sums);
+        continue;
+      }
+      // 7.4.3: anchors are looked at only in groups in which somebody touches.
+      finish_node(host, held, surface, held_loads, i, touches[k], any, sums);
+      if (!touches[k].contact) end_contact(scene, i, touches[k], any, sums);
+    }
+  }
+  if (!closest()) return;
+  double due = 1e300;
+  for (Index i = first; i < last && due != unknown_due; ++i) {
+    due = quiet_[at(i)] == awake ? unknown_due : std::min(due, candidates_.nearest_due(i));
+  }
+  group_due_[number] = due;
+}
+
+void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums) {
+  const bool anchors = options_.rules.reference_friction;
+  const NodeState& before = state_[at(i)];
+  NodeState& after = next_[at(i)];
+  if (touch.lost) sums.lost.push_back(scene.held.nodes()[at(i)]);
+  after.held = 0;
+  // The last damping force acts over half of the step that ends the contact.
+  if (before.damping != 0.0) sums.totals.damped += std::max(0.0, -0.5 * before.damping * before.rate * scene.host.dt);
+  after.damping = 0.0;
+  sums.totals.started += 0.5 * before.force * growth(before);
+  after.force = 0.0;
+  after.push = {};
+  after.reckoned = 0;
+  after.light = 0;
+  after.stored = 0.0;
+  after.made = 0.0;
+  after.rate = 0.0;
+  after.acceleration = 0.0;
+  if (!anchors || any) {
+    // The limit falls to zero: what was stored slips away.
+    if (before.tangential_stiffness > 0.0) { sums.totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness; }
+    after.anchored = 0;
+    after.slip = {};
+    if (!anchors) after.filtered = {};
+    after.friction = {};
+    after.tangential_stiffness = 0.0;
+  }
+  if (!closest()) return;
+  const bool nothing = candidates_.of(i).empty();
+  if ((touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
+    quiet_[at(i)] = nothing ? nothing_listed : in_front;
+  }
+}
+
+void Pass::add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const {
+  for (const Reaction& r : sums.reactions) {
+    const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      SideLoads::Node& node = surface_loads.node[at(corner[k])];
+      node.reaction_normal += r.normal[k];
+      node.reaction_tangential += r.weight[k] * r.tangential;
+      node.reaction_stiffness += std::abs(r.weight[k]) * r.stiffness;
+      surface_loads.loaded[at(corner[k])] |= SideLoads::now;
     }
   }
 }
@@ -225,12 +286,19 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   const Scene scene{host, held, surface, held_loads, surface_loads};
   keep_ = options_.start_duration > 0.0 ? kept_share(options_, host.time - host.dt, host.time) : 1.0;
   groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
-  const auto evaluate_groups = [this, &scene](std::size_t begin, std::size_t end) {
+  std::size_t added = 0;
+  const auto evaluate_groups = [this, &scene, &added](std::size_t begin, std::size_t end) {
     std::array<Touch, at(group)> touches;
-    for (std::size_t g = begin; g < end; ++g) evaluate_group(scene, static_cast<Index>(g) * group, touches, groups_[g]);
+    HeldBatch batch;
+    for (std::size_t g = begin; g < end; ++g) {
+      evaluate_group(scene, g, touches, batch, groups_[g]);
+      // Reactions are added in the order of the groups: whoever has the first of them adds while they are in its cache.
+      if (begin == 0) add_reactions(groups_[g], scene.surface, scene.surface_loads);
+    }
+    if (begin == 0) added = end;
   };
   if (executor_) {
-    executor_(groups_.size(), evaluate_groups);
+    executor_(groups_.size(), std::ref(evaluate_groups));
   } else {
     evaluate_groups(0, groups_.size());
   }
@@ -238,21 +306,12 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   committed_ = false;
   PassTotals totals;
   for (std::vector<Index>* list : {&in_contact_, &crossed_, &lost_}) list->clear();
+  for (std::size_t g = added; g < groups_.size(); ++g) add_reactions(groups_[g], surface, surface_loads);
   for (const GroupSums& sums : groups_) {
     totals += sums.totals;
     in_contact_.insert(in_contact_.end(), sums.in_contact.begin(), sums.in_contact.end());
     crossed_.insert(crossed_.end(), sums.crossed.begin(), sums.crossed.end());
     lost_.insert(lost_.end(), sums.lost.begin(), sums.lost.end());
-    for (const Reaction& r : sums.reactions) {
-      const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t s = at(corner[k]);
-        surface_loads.reaction_normal[s] += r.normal[k];
-        surface_loads.reaction_tangential[s] += r.weight[k] * r.tangential;
-        surface_loads.reaction_stiffness[s] += std::abs(r.weight[k]) * r.stiffness;
-        surface_loads.loaded[s] |= SideLoads::now;
-      }
-    }
   }
   settled_ = true;
   return totals;

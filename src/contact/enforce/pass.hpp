@@ -1,11 +1,13 @@
 // One pass: the nodes of one side held against the facets of the other.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "contact/enforce/held_kernel.hpp"
 #include "contact/enforce/history.hpp"
 #include "contact/enforce/law.hpp"
 #include "contact/enforce/pair.hpp"
@@ -18,20 +20,24 @@ namespace abut::contact {
 /// Contact forces on the nodes of a side: from being held, and as corners of facets that hold others. Kept apart so that
 /// neither the order of the passes nor that of the surfaces shows in the sums.
 struct SideLoads {
-  std::vector<Vec3> own_normal, own_tangential, reaction_normal, reaction_tangential;
-  std::vector<double> own_stiffness, reaction_stiffness;
+  struct Node {
+    Vec3 own_normal, own_tangential, reaction_normal, reaction_tangential;
+    double own_stiffness = 0.0, reaction_stiffness = 0.0;
+
+    [[nodiscard]] Vec3 total() const { return (own_normal + own_tangential) + (reaction_normal + reaction_tangential); }
+  };
+  std::vector<Node> node;
   std::vector<Vec3> force_before, x_before;  ///< of the last committed step
   /// Which of them can be other than zero: the loads of this step, the force of the last.
   static constexpr std::uint8_t now = 1, before = 2;
   std::vector<std::uint8_t> loaded;
   double work = 0.0;       ///< committed: sum (f_old + f_new)/2 . dx
   double work_step = 0.0;  ///< of the step that evaluate() saw
+  std::vector<double> work_parts;
 
   void resize(std::size_t nodes);
-  void clear();
-  [[nodiscard]] Vec3 total(std::size_t s) const {
-    return (own_normal[s] + own_tangential[s]) + (reaction_normal[s] + reaction_tangential[s]);
-  }
+  /// Those of nodes begin to end - 1.
+  void clear(std::size_t begin, std::size_t end);
 };
 
 /// A material point of the surface.
@@ -47,14 +53,10 @@ struct NodeState {
   Vec3 slip_normal;     ///< return mapping: contact normal in the same frame
   Vec3 push;            ///< normal force of the last step with what a varying stiffness adds to it, without damping
   Vec3 friction;        ///< friction force of the last step, as it acted on the surface
-  Vec3 filtered;        ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
   SurfacePoint anchor;  ///< return mapping: last contact point; anchors: where F0 acted
-  SurfacePoint last;    ///< last contact point
   double tangential_stiffness = 0.0;
   double rate = 0.0;          ///< speed of opening in the last step
   double acceleration = 0.0;  ///< that the contact force gave to the opening
-  double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
-  double damping = 0.0;       ///< damping force of the last step
   double force = 0.0;         ///< normal force of the last step, without damping
   double stored = 0.0;        ///< energy that it held
   double made = 0.0;          ///< account of the pair (account.hpp): energy made since it began
@@ -66,6 +68,11 @@ struct NodeState {
   std::uint8_t reckoned = 0;  ///< `made` counts
   std::uint8_t light = 0;     ///< its steps were once long for its stiffness
   std::array<std::uint8_t, 6> unused{};
+  double offset = 0.0;   ///< the gap of this node is smaller by this (initial penetration)
+  double damping = 0.0;  ///< damping force of the last step
+  // What only some rules remember, apart from what every step of every held node touches.
+  Vec3 filtered;      ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
+  SurfacePoint last;  ///< anchors and accounts: last contact point
 };
 
 struct PassTotals {
@@ -90,7 +97,8 @@ class Pass {
 
   /// Once, on the first geometry: depth limits, nearest nodes, anchors of contacts that exist at the start.
   void start(const Side& held, const Side& surface);
-  void search(const Side& held, const Side& surface, const SideLoads& surface_loads);
+  /// @param motion  since the last search
+  void search(const Side& held, const Side& surface, const Motion& motion);
   PassTotals evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads);
   /// Outside the time window: contacts end.
   PassTotals rest();
@@ -122,6 +130,9 @@ class Pass {
     Vec3 point, normal;
     double distance = 0.0;
     double penetration = 0.0;
+    Measure measure;              ///< what `pair` is made from, where it is not made yet
+    double gap = 0.0;             ///< the same
+    bool pair_open = false;       ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
     PairForce pair;               ///< where several facets are equally near: the mean of theirs
     std::size_t first_equal = 0;  ///< further facets at the same distance: GroupSums::equals from here
     std::size_t equals = 0;
@@ -152,13 +163,12 @@ class Pass {
     const Side& held;
     const Side& surface;
     SideLoads& held_loads;
-    const SideLoads& surface_loads;
+    SideLoads& surface_loads;
   };
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
   enum Quiet : std::uint8_t { awake, in_front, nothing_listed };
   struct Kinematics {
-    double rate = 0.0;          ///< of opening, n.(v - v_point)
-    double inverse_mass = 0.0;  ///< of the pair; 0: unknown
+    double rate = 0.0;  ///< of opening, n.(v - v_point)
     Vec3 tangential_velocity;
   };
 
@@ -183,8 +193,9 @@ class Pass {
   Executor executor_;
   Candidates candidates_;
   IncrementalSearch incremental_;
-  double surface_step_ = 0.0;  ///< largest motion of the surface in the last step, relative to its mean
+  double held_step_ = 0.0, surface_step_ = 0.0;  ///< largest motions in the last step, relative to the surface's mean
   Vec3 mean_step_;
+  std::vector<double> group_due_;  ///< per group of nodes: smallest nearest_due() where all are quiet, else unknown_due
 
   [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const;
   /// How much of a node's offset the gradual start gives back to its gap in this step.
@@ -204,6 +215,8 @@ class Pass {
   /// Velocity of a held node relative to a material point of the surface.
   [[nodiscard]] static Vec3 velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point);
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
+  /// 1/m of a node with its facet; 0: unknown
+  [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
   void limit_depths();
   [[nodiscard]] const NodeState& now(Index i) const { return (committed_ ? state_ : next_)[at(i)]; }
   /// Signed distance of a held node to the other side, whatever it touches; NaN when nothing is near.
@@ -211,7 +224,26 @@ class Pass {
   /// True while the node cannot touch, now or in the coming step.
   [[nodiscard]] bool far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const;
   [[nodiscard]] bool asleep(const Scene& scene, Index i) const;
-  void evaluate_group(const Scene& scene, Index first, std::span<Touch> touches, GroupSums& sums);
+  /// The same for all nodes of a group at once, or false.
+  [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
+  /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
+  [[nodiscard]] double clearance(double due) const {
+    return 0.25 * std::min(smallest_depth_, due - candidates_.clock() - options_.gap) - surface_step_;
+  }
+  void evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, HeldBatch& batch, GroupSums& sums);
+  void measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums);
+  void end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums);
+  /// True where every ordinary held node goes through held_kernel().
+  [[nodiscard]] bool in_batches(const HostState& host) const;
+  [[nodiscard]] HeldRules held_rules(const HostState& host) const;
+  /// Held by a quadrilateral, with nothing in its history that held_kernel() leaves out.
+  [[nodiscard]] bool may_be_ordinary(const Scene& scene, Index i) const;
+  void put_in(const Scene& scene, Index i, HeldBatch& batch) const;
+  void run_batch(const Scene& scene, HeldBatch& batch) const;
+  void add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const;
+  /// No other facet can be as near as the one that holds the node.
+  [[nodiscard]] bool alone(const HeldBatch& batch, int lane, Index i) const;
+  void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
   void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                    GroupSums& sums);
   [[nodiscard]] Vec3 rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion,

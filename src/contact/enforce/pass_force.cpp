@@ -10,7 +10,6 @@
 namespace abut::contact {
 namespace {
 
-constexpr double light_pair = 0.1;   // h^2 K/m of a pair, once in its contact, from which on its account is settled
 constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
 
 }  // namespace
@@ -26,19 +25,21 @@ Vec3 Pass::velocity_over(const HostState& host, const Side& held, const Side& su
 
 Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
   Kinematics k;
-  const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  const Index node = held.nodes()[at(i)];
   const Vec3 v = velocity_over(host, held, surface, i, {touch.weight, touch.facet});
   k.rate = dot(v, touch.normal);
   k.tangential_velocity = v - k.rate * touch.normal;
-  if (!host.mass.empty()) {
-    const auto inverse = [&host](Index n) { return host.mass[at(n)] > 0.0 ? 1.0 / host.mass[at(n)] : 0.0; };
-    k.inverse_mass = inverse(node);
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (touch.weight[c] != 0.0) k.inverse_mass += touch.weight[c] * touch.weight[c] * inverse(surface.nodes()[at(corner[c])]);
-    }
-  }
   return k;
+}
+
+double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
+  if (host.mass.empty()) return 0.0;
+  const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
+  const auto inverse = [&host](Index n) { return host.mass[at(n)] > 0.0 ? 1.0 / host.mass[at(n)] : 0.0; };
+  double sum = inverse(held.nodes()[at(i)]);
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (touch.weight[c] != 0.0) sum += touch.weight[c] * touch.weight[c] * inverse(surface.nodes()[at(corner[c])]);
+  }
+  return sum;
 }
 
 void Pass::look_ahead(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i) const {
@@ -57,7 +58,7 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
     box.inflate(options_.gap + 2.0 * surface_step_);
     if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
   });
-  held_loads.own_stiffness[at(i)] += largest * law_.tangent(1e30);
+  held_loads.node[at(i)].own_stiffness += largest * law_.tangent(1e30);
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
 
@@ -74,6 +75,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
+  const double pair_inverse_mass = touch.contact || options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch) : 0.0;
   // What is said of nodes that are not in contact must not depend on how old the lists are: a node that far() passes over closes in by
   // less than a quarter of its way to the gap in a step. Here: only nodes that come nearer than that.
   if (options_.gap > 0.0 && -motion.rate * host.dt >= -0.25 * penetration) {
@@ -90,6 +92,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (rules.limits_step) {
     const double ahead = 1.5 * step_growth * host.dt * std::max(closing, 0.0);
     const bool may_touch = host.dt > 0.0 ? penetration + ahead > 0.0 : penetration > -0.25 * size_;
+    if (may_touch && touch.pair_open) { touch.pair = force_of(held, surface, touch.measure, i, touch.gap, touch.widens); }
     if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
       const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
       double tangent = touch.pair.stiffness * law_.tangent(reached) + touch.pair.extra_tangent;
@@ -102,13 +105,13 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
         // With viscous forces from the step before, h^2 K/4 + h C/2 <= 1: in the terms of one spring (sqrt(1 + z^2) + z)^2, or 2 C/h.
         const double z = options_.damping;
         const double root = std::sqrt(1.0 + z * z) + z;
-        const double c = motion.inverse_mass > 0.0 ? 2.0 * z * std::sqrt(tangent / motion.inverse_mass) : 0.0;
+        const double c = pair_inverse_mass > 0.0 ? 2.0 * z * std::sqrt(tangent / pair_inverse_mass) : 0.0;
         tangent = std::max(tangent * root * root, host.dt > 0.0 ? tangent + 2.0 * c / host.dt : 0.0);
       }
       double spread = 0.0;
       for (const double w : touch.weight) spread += std::abs(w);
       tangent *= 0.5 * (1.0 + spread);
-      held_loads.own_stiffness[at(i)] += tangent;
+      held_loads.node[at(i)].own_stiffness += tangent;
       held_loads.loaded[at(i)] |= SideLoads::now;
       reaction.stiffness = tangent;
     }
@@ -122,11 +125,10 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     }
   }
 
-  // The first step of a run has none before it.
-  const double step_before = 2.0 * host.dt_bar_old > 1.0001 * host.dt ? 2.0 * host.dt_bar_old - host.dt : host.dt;
+  const double h_before = step_before(host.dt, host.dt_bar_old);
   double made = 0.0;  // energy that the pair has made, before this cycle's force
   if (before.held != 0) {
-    const double by_step = made_by_changing_step(before.force, step_before, host.dt, before.rate, motion.rate);
+    const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, motion.rate);
     totals.stepped += by_step;
     if (before.reckoned != 0) {
       made = before.made - before.stored + 0.5 * host.dt * dot(before.push, velocity_over(host, held, surface, i, before.last)) + by_step;
@@ -151,14 +153,14 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   double factor = 1.0;
   const double moved_in = closing * host.dt;
   // With two passes the facing surface's own springs act on this pair too, as strongly as this one where the meshes face.
-  const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * motion.inverse_mass;
+  const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * pair_inverse_mass;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   double stored = touch.pair.potential;
   const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
   const bool light = lightness > light_pair || before.light != 0;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const double coming = foreseen_step(step_before, host.dt);
+    const double coming = foreseen_step(h_before, host.dt);
     const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
     double force = switched.force;
@@ -197,14 +199,14 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     if (!fresh) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
   }
   after.damping = 0.0;
-  if (options_.damping > 0.0 && motion.inverse_mass > 0.0) {
-    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / motion.inverse_mass);
+  if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {
+    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / pair_inverse_mass);
     after.damping = std::max(-c * motion.rate, -normal_force);
     totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
     on_node += after.damping * touch.normal;
     for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= (share * touch.weight[k] * after.damping) * touch.normal;
   }
-  held_loads.own_normal[at(i)] = on_node;
+  held_loads.node[at(i)].own_normal = on_node;
   held_loads.loaded[at(i)] |= SideLoads::now;
   totals.normal += on_node;
 
@@ -228,7 +230,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
-    held_loads.own_tangential[at(i)] = -on_surface;
+    held_loads.node[at(i)].own_tangential = -on_surface;
     reaction.tangential = share * on_surface;
     totals.tangential -= on_surface;
   }

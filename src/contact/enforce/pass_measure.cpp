@@ -11,7 +11,6 @@ namespace abut::contact {
 namespace {
 
 constexpr double never = 1e300;  // offset of a node that is ignored
-constexpr double equal = 1e-8;   // relative difference of distances that are the same
 
 Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   Patch patch = side.patch(f);
@@ -24,7 +23,7 @@ Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
 
 bool Pass::far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
   // Neither the motion of the last step nor that of the coming one may come near a quarter of the way.
-  const double clear = 0.25 * std::min(smallest_depth_, candidates_.nearest_due(i) - candidates_.clock() - options_.gap) - surface_step_;
+  const double clear = clearance(candidates_.nearest_due(i));
   if (clear <= 0.0) return false;
   const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
   const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;
@@ -125,6 +124,12 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   touch.penetration = gap - m.distance;
   // A node that was in front, that the swept test caught, or that touches at the start comes through the front.
   if (!was_held) touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_;
+  touch.pair_open = !meets && !was_held;
+  if (touch.pair_open) {
+    touch.measure = m;
+    touch.gap = gap;
+    return;
+  }
   touch.pair = force_of(held, surface, m, i, gap, touch.widens);
   touch.contact = meets && touch.pair.magnitude > 0.0;
   // Still behind the gap, but where the strip of a free border has faded to nothing.
@@ -147,9 +152,9 @@ void Pass::share_among_equals(const Side& held, const Side& surface, const Measu
   Vec3 normal = touch.normal;
   for (const Candidates::Entry& entry : candidates_.of(i)) {
     const Index f = entry.facet;
-    if (entry.due - candidates_.clock() > (1.0 + equal) * distance || f == m.facet || !surface.active(f)) continue;
+    if (entry.due - candidates_.clock() > (1.0 + equally_near) * distance || f == m.facet || !surface.active(f)) continue;
     const ClosestPoint other = closest_point(extended(surface, f, strip), x);
-    if (std::abs(std::sqrt(other.squared_distance) - distance) > equal * distance || other.beyond) continue;
+    if (std::abs(std::sqrt(other.squared_distance) - distance) > equally_near * distance || other.beyond) continue;
     if (squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from the facet across
     const Measure its = signed_measure(surface, f, other, x);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;

@@ -44,12 +44,12 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
   Vec3 force_before{};
   Vec3 increment{};
   Vec3 filtered{};
+  const Frame frame = frame_of(surface, touch.facet);
   if (before.anchored != 0) {
-    const auto facet = static_cast<Index>(before.anchor.facet);
-    const Frame frame = frame_of(surface, facet);
-    elastic = turned(frame.to_world(before.slip), frame.to_world(before.slip_normal), touch.normal);
+    const Frame was = before.anchor.facet == touch.facet ? frame : frame_of(surface, static_cast<Index>(before.anchor.facet));
+    elastic = turned(was.to_world(before.slip), was.to_world(before.slip_normal), touch.normal);
     elastic -= dot(elastic, touch.normal) * touch.normal;
-    if (options_.filter.acts()) filtered = turned(frame.to_world(before.filtered), frame.to_world(before.slip_normal), touch.normal);
+    if (options_.filter.acts()) filtered = turned(was.to_world(before.filtered), was.to_world(before.slip_normal), touch.normal);
     force_before = before.tangential_stiffness * elastic;
     increment = touch.point - point_of(surface, before.anchor);
   } else {
@@ -79,12 +79,10 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
   totals.dissipated += result.dissipated;
   totals.stick += 0.5 * stiffness * squared_norm(result.elastic);
 
-  const Frame frame = frame_of(surface, touch.facet);
   after.anchored = 1;
   after.anchor = {touch.weight, touch.facet};
-  after.last = after.anchor;
   after.slip = frame.to_local(result.elastic);
-  after.filtered = frame.to_local(filtered);
+  if (options_.filter.acts()) after.filtered = frame.to_local(filtered);
   after.slip_normal = frame.to_local(touch.normal);
   after.tangential_stiffness = stiffness;
   after.friction = stiffness * result.elastic;

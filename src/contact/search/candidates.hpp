@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/search/box_tree.hpp"
+#include "contact/search/motion.hpp"
 #include "contact/surface/side.hpp"
 
 namespace abut::contact {
@@ -18,13 +19,16 @@ class Candidates {
  public:
   struct Entry {
     Index facet;
+    bool wide;   ///< `due` counts strips as wide as a held node's can be
     double due;  ///< distance when last measured + the clock then: the distance now is at least due - clock()
   };
 
   /// Rebuilds the lists when the motion since the last build exceeds `skin` (or `force` is set).
-  /// Motion common to the whole surface does not count: it is measured relative to the surface's mean displacement.
+  /// @param motion  since the last update
   /// @param reach  #held, distance within which facets matter (< 0: this node needs none)
-  void update(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, bool force);
+  /// @return true when the lists are new
+  bool update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin,
+              bool force);
 
   /// False before the first update().
   [[nodiscard]] bool made() const { return !first_.empty(); }
@@ -39,6 +43,14 @@ class Candidates {
   /// Distance of the node's nearest listed facet + the clock when it was measured (see Entry::due); 1e300: none listed.
   [[nodiscard]] double nearest_due(Index node) const { return nearest_[at(node)]; }
   void set_nearest_due(Index node, double due) { nearest_[at(node)] = due; }
+  /// Of all active facets in the node's list but `facet`, the nearest one: when the first of them is due.
+  struct Others {
+    Index facet = no_index;  ///< no_index: unknown
+    bool wide = false;       ///< as in Entry
+    double due = 0.0;
+  };
+  [[nodiscard]] const Others& others(Index node) const { return others_[at(node)]; }
+  void set_others(Index node, Others others) { others_[at(node)] = others; }
   /// Upper bound of the change of any node-to-facet distance since the lists were made.
   [[nodiscard]] double slack() const { return slack_; }
   /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box.
@@ -56,12 +68,10 @@ class Candidates {
   std::vector<Index> first_;
   std::vector<Entry> entries_;
   std::vector<double> nearest_;
-  std::vector<Vec3> held_last_, surface_last_;  ///< positions at the last update
-  Vec3 shift_;                                  ///< mean motion of the surface since the lists were made
+  std::vector<Others> others_;
+  Vec3 shift_;  ///< mean motion of the surface since the lists were made
   double slack_ = 0.0;
   double clock_ = 0.0;
-
-  void advance(const Side& held, const Side& surface);
 };
 
 /// Box of a facet with its strips.

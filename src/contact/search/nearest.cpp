@@ -34,6 +34,17 @@ Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest
 
 Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
   constexpr double rounding = 1.0 + 1e-12;  // of the clock's sums
+  const Candidates::Others& last = candidates.others(node);
+  if (last.facet != no_index && (held.facet == no_index || held.facet == last.facet) && surface.active(last.facet) &&
+      (last.wide || held.strip <= border_strip)) {
+    // The facet that was the nearest, as long as no other can be: what the search below would say, without looking at the list.
+    const ClosestPoint again = closest_point(extended(surface, last.facet, held.strip), x);
+    const double distance = std::sqrt(again.squared_distance);
+    if (last.due - candidates.clock() > rounding * distance) {
+      candidates.set_nearest_due(node, distance + candidates.clock());
+      return signed_measure(surface, last.facet, again, x);
+    }
+  }
   Measure best;
   bool held_in_front = false;
   double best_distance = 1e300;
@@ -45,12 +56,14 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   ClosestPoint closest;
   Index facet = no_index;
   const double clock = candidates.clock();
-  const bool wide = held.strip > border_strip;  // the lists' distances are those of the usual strips: none is left out
+  const bool wide = held.strip > border_strip;  // the lists' distances are those of the usual strips
+  const auto known = [&](const Candidates::Entry& entry) { return !wide || entry.wide || surface.borders(entry.facet) == 0; };
   double least = best_distance;
   const auto try_entry = [&](Candidates::Entry& entry) {
     const ClosestPoint other = closest_point(extended(surface, entry.facet, held.strip), x);
     const double distance = std::sqrt(other.squared_distance);
     entry.due = distance + clock;
+    entry.wide = wide;
     least = std::min(least, distance);
     const bool nearer = distance < best_distance || (distance == best_distance && facet != no_index && entry.facet < facet);
     if (!nearer) return;
@@ -69,12 +82,22 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
     if (first != nullptr) try_entry(*first);
   }
   for (Candidates::Entry& entry : entries) {
-    if ((!wide && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
+    if ((known(entry) && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
         !surface.active(entry.facet))
       continue;
     try_entry(entry);
   }
   candidates.set_nearest_due(node, least + clock);
+  Candidates::Others others{facet == no_index ? best.facet : facet, true, 1e300};
+  bool listed = false;
+  for (const Candidates::Entry& entry : entries) {
+    listed = listed || entry.facet == others.facet;
+    if (entry.facet == others.facet || !surface.active(entry.facet)) continue;
+    others.due = std::min(others.due, known(entry) ? entry.due : -1e300);
+    others.wide = others.wide && (entry.wide || surface.borders(entry.facet) == 0);
+  }
+  if (!listed) others.facet = no_index;
+  candidates.set_others(node, others);
   return facet == no_index ? best : signed_measure(surface, facet, closest, x);
 }
 

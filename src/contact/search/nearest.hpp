@@ -5,6 +5,9 @@
 
 namespace abut::contact {
 
+/// Relative difference of distances that count as the same.
+inline constexpr double equally_near = 1e-8;
+
 /// A node measured against a surface.
 struct Measure {
   Index facet = no_index;

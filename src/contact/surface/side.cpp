@@ -101,8 +101,8 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   }
 }
 
-void Side::gather(std::span<const Vec3> x) {
-  for (std::size_t s = 0; s < nodes_.size(); ++s) x_[s] = x[at(nodes_[s])];
+void Side::gather(std::span<const Vec3> x, std::size_t begin, std::size_t end) {
+  for (std::size_t s = begin; s < end; ++s) x_[s] = x[at(nodes_[s])];
 }
 
 Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {

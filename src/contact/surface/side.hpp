@@ -42,8 +42,13 @@ class Side {
   [[nodiscard]] double thickness(Index f) const { return thickness_.empty() ? 0.0 : thickness_[at(f)]; }
   [[nodiscard]] bool has_thickness() const { return !thickness_.empty(); }
 
+  /// Bit e: side e of the facet is a free border.
+  [[nodiscard]] std::uint8_t borders(Index f) const { return borders_[at(f)]; }
+
   /// Copies the host's positions of this surface's nodes.
-  void gather(std::span<const Vec3> x);
+  void gather(std::span<const Vec3> x) { gather(x, 0, nodes_.size()); }
+  /// Those of nodes begin to end - 1.
+  void gather(std::span<const Vec3> x, std::size_t begin, std::size_t end);
   [[nodiscard]] std::span<const Vec3> x() const { return x_; }
   [[nodiscard]] Patch patch(Index f) const {
     const std::array<Index, 4>& local = surface_.local()[at(f)];

@@ -124,11 +124,13 @@ inline SearchCount search_against_brute_force(const SearchCase& c) {
       host.x[first_held + i] = c.shape.at(at_u[i], at_v[i], above[i]);
     }
     for (std::size_t i = 0; i < host.x.size(); ++i) { host.x[i] = rotate(i < first_held ? at_rest[i] : host.x[i], axis, angle) + away; }
+    const std::vector<Vec3> surface_before(surface.x().begin(), surface.x().end()), held_before(held.x().begin(), held.x().end());
     surface.gather(host.x);
     held.gather(host.x);
+    const Motion motion = motion_between(held.x(), held_before, surface.x(), surface_before);
     const double margin = c.strip > border_strip ? 1.5 * (c.strip - border_strip) * surface.mean_size() * std::sqrt(c.stretch) : 0.0;
     lists.update(
-        held, surface, [&](Index) { return reach + margin; }, 0.08, false);
+        held, surface, motion, [&](Index) { return reach + margin; }, 0.08, false);
     for (Index i = 0; i < held.node_count(); ++i) {
       const Vec3 x = held.x()[at(i)];
       HeldBy& mine = by[at(i)];

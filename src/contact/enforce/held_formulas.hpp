@@ -1,0 +1,319 @@
+// The formulas of held_kernel.hpp over a number type. Always inlined: nothing of it may survive as a symbol of its own.
+#pragma once
+
+#include "contact/enforce/account.hpp"
+#include "contact/enforce/held_kernel.hpp"
+#include "simd/gather.hpp"
+
+namespace abut::contact::held {
+
+template <class T>
+using V = simd::Triple<T>;
+
+template <class T>
+ABUT_INLINE V<T> operator+(const V<T>& a, const V<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+ABUT_INLINE V<T> operator-(const V<T>& a, const V<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+ABUT_INLINE V<T> operator*(T s, const V<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+ABUT_INLINE T dot(const V<T>& a, const V<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+ABUT_INLINE V<T> cross(const V<T>& a, const V<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+ABUT_INLINE V<T> unit(const V<T>& a) {
+  const T scale = T(1.0) / simd::sqrt(dot(a, a));
+  return scale * a;
+}
+template <class T>
+ABUT_INLINE V<T> select(decltype(T(0.0) < T(0.0)) c, const V<T>& a, const V<T>& b) {
+  return {simd::select(c, a.x, b.x), simd::select(c, a.y, b.y), simd::select(c, a.z, b.z)};
+}
+template <class T>
+ABUT_INLINE T load(const double* p) {
+  return simd::NumberTraits<T>::load(p);
+}
+template <class T>
+ABUT_INLINE void store(double* p, T a) {
+  simd::NumberTraits<T>::store(p, a);
+}
+template <class T>
+ABUT_INLINE V<T> load3(const double (*p)[HeldBatch::size], int k) {
+  return {load<T>(p[0] + k), load<T>(p[1] + k), load<T>(p[2] + k)};
+}
+template <class T>
+ABUT_INLINE void store3(double (*p)[HeldBatch::size], int k, const V<T>& a) {
+  store(p[0] + k, a.x);
+  store(p[1] + k, a.y);
+  store(p[2] + k, a.z);
+}
+
+/// -u - ln(1 - u) for 0 <= u < 0.9; law.hpp has the same for one number, and why there are two ways.
+template <class T>
+ABUT_INLINE T minus_u_minus_log(T u) {
+  const T one = T(1.0);
+  const auto small = u < T(0.125);
+  T series = T(0.0), whole = T(0.0);
+  if (simd::any(small)) {
+    constexpr double c[] = {1. / 20, 1. / 19, 1. / 18, 1. / 17, 1. / 16, 1. / 15, 1. / 14, 1. / 13, 1. / 12, 1. / 11,
+                            1. / 10, 1. / 9,  1. / 8,  1. / 7,  1. / 6,  1. / 5,  1. / 4,  1. / 3,  1. / 2};
+    series = T(c[0]);
+    for (int k = 1; k < 19; ++k) series = series * u + T(c[k]);
+    series = series * (u * u);
+  }
+  if (simd::any(u >= T(0.125))) {
+    constexpr double ln2 = 0.693147180559945309417232121458;
+    T y = one - u, log = T(0.0);
+    for (int k = 0; k < 4; ++k) {
+      const auto low = y < T(0.70710678);
+      y = simd::select(low, y + y, y);
+      log = simd::select(low, log - T(ln2), log);
+    }
+    const T z = (y - one) / (y + one), zz = z * z;
+    constexpr double c[] = {1. / 23, 1. / 21, 1. / 19, 1. / 17, 1. / 15, 1. / 13, 1. / 11, 1. / 9, 1. / 7, 1. / 5, 1. / 3, 1.};
+    T sum = T(c[0]);
+    for (int k = 1; k < 12; ++k) sum = sum * zz + T(c[k]);
+    whole = -u - (log + T(2.0) * (z * sum));
+  }
+  return simd::select(small, series, whole);
+}
+
+/// A bilinear facet seen from the node, X = c + a s + b t + g s t, and the closest point on it.
+template <class T>
+struct Foot {
+  V<T> c, a, b, g;
+  T s, t;
+  V<T> xs, xt, r;                    ///< tangents, node less contact point
+  T a11, a22, a12;                   ///< of the Hessian A
+  decltype(T(0.0) < T(0.0)) inside;  ///< found, the only minimum, and |s|, |t| < 1
+
+  [[gnu::always_inline]] inline void look() {
+    xs = a + t * g;
+    xt = b + s * g;
+    r = V<T>{-c.x, -c.y, -c.z} - s * xs - t * b;
+    a11 = dot(xs, xs);
+    a22 = dot(xt, xt);
+    a12 = dot(xs, xt) - dot(r, g);
+  }
+};
+
+template <class T>
+ABUT_INLINE void project(Foot<T>& q, T reach) {
+  // With |g| at most half of the shorter tangent (`folds`) and tangents no flatter than `flattest`, Newton's steps go down as e' < 200 e^2:
+  // after a step of 1e-8 less than 1e-13 is left.
+  constexpr double last_step = 1e-8, flattest = 1e-2;
+  constexpr int most = 12;
+  const T zero = T(0.0), one = T(1.0);
+  q.s = zero;
+  q.t = zero;
+  auto done = one < zero;
+  auto regular = zero < one;
+  for (int i = 0; i < most; ++i) {
+    q.look();
+    const T gs = -dot(q.r, q.xs), gt = -dot(q.r, q.xt);
+    const T det = q.a11 * q.a22 - q.a12 * q.a12;
+    regular = regular & (done | (det > T(flattest) * (q.a11 * q.a22)));
+    const T inverse = one / det;
+    const T ds = (q.a12 * gt - q.a22 * gs) * inverse, dt = (q.a12 * gs - q.a11 * gt) * inverse;
+    q.s = simd::select(done, q.s, q.s + ds);
+    q.t = simd::select(done, q.t, q.t + dt);
+    const T largest = simd::max(simd::abs(ds), simd::abs(dt));
+    done = done | (largest < T(last_step));
+    if (!simd::any((!done) & regular)) break;
+  }
+  q.look();
+  const T metric = simd::min(dot(q.a, q.a), dot(q.b, q.b)), twist = dot(q.g, q.g);
+  const auto folds = twist * reach > T(0.25) * metric;
+  const auto far = (twist > T(1e-8) * metric) & (dot(q.r, q.r) * twist > T(0.04) * (metric * metric));
+  const T furthest = simd::max(simd::abs(q.s), simd::abs(q.t));
+  q.inside = done & regular & (!folds) & (!far) & (furthest < one);
+}
+
+/// One over a mass; 0 where there is none.
+template <class T>
+ABUT_INLINE T inverse(T mass) {
+  const auto some = mass > T(0.0);
+  return simd::select(some, T(1.0) / simd::select(some, mass, T(1.0)), T(0.0));
+}
+
+template <class T>
+ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
+  const T zero = T(0.0), one = T(1.0), half = T(0.5), quarter = T(0.25);
+  const V<T> x = simd::gather3(b.held_x, b.node + k, T());
+  V<T> corner[4];
+  for (int i = 0; i < 4; ++i) corner[i] = simd::gather3(b.surface_x, b.corner[i] + k, T()) - x;
+
+  Foot<T> q;
+  q.c = quarter * ((corner[0] + corner[1]) + (corner[2] + corner[3]));
+  q.a = quarter * ((corner[1] - corner[0]) + (corner[2] - corner[3]));
+  q.b = quarter * ((corner[3] - corner[0]) + (corner[2] - corner[1]));
+  q.g = quarter * ((corner[0] - corner[1]) + (corner[2] - corner[3]));
+  project(q, load<T>(b.reach + k));
+  auto ordinary = q.inside;
+  const V<T>&r = q.r, &xs = q.xs, &xt = q.xt;
+  const V<T> n = unit(cross(xs, xt));
+  const T d = dot(n, r);
+  const T s0 = one - q.s, s1 = one + q.s, t0 = quarter * (one - q.t), t1 = quarter * (one + q.t);
+  const T h[4] = {s0 * t0, s1 * t0, s1 * t1, s0 * t1};
+  store(b.squared_distance + k, dot(r, r));
+  store(b.distance + k, d);
+  store3(b.normal, k, n);
+  for (int i = 0; i < 4; ++i) store(b.weight[i] + k, h[i]);
+
+  // Normal law.
+  const T gap = T(rules.gap);
+  const T p = gap - d;
+  ordinary = ordinary & (p > zero);
+  T phi, slope_of_phi;
+  if (rules.stiffens) {
+    const T u = p / gap;
+    ordinary = ordinary & (u < T(0.9));
+    slope_of_phi = p / (one - u);
+    phi = (gap * gap) * minus_u_minus_log(simd::max(zero, simd::min(u, T(0.9))));
+  } else {
+    slope_of_phi = p;
+    phi = half * (p * p);
+  }
+
+  // Stiffness of the pair and its gradient.
+  T k1[4], c1 = zero;
+  for (int i = 0; i < 4; ++i) {
+    k1[i] = load<T>(b.corner_stiffness[i] + k);
+    c1 = c1 + h[i] * k1[i];
+  }
+  const T lowest = simd::min(simd::min(k1[0], k1[1]), simd::min(k1[2], k1[3]));
+  const T highest = simd::max(simd::max(k1[0], k1[1]), simd::max(k1[2], k1[3]));
+  const auto clipped = (c1 < lowest) | (c1 > highest);
+  c1 = simd::max(lowest, simd::min(c1, highest));
+  const T k2 = load<T>(b.node_stiffness + k);
+  ordinary = ordinary & (c1 > zero) & (k2 > zero);
+  const T share = k2 / (c1 + k2);
+  const T kappa = T(rules.stiffness_scale) * (c1 * share);
+  const T slope = simd::select(clipped, zero, T(rules.stiffness_scale) * (share * share));
+  const T ks = slope * (t0 * (k1[1] - k1[0]) + t1 * (k1[2] - k1[3]));
+  const T kt = slope * (quarter * (s0 * (k1[3] - k1[0]) + s1 * (k1[2] - k1[1])));
+  const T det = q.a11 * q.a22 - q.a12 * q.a12;
+  const T by = phi / det;
+  const T cs = by * (q.a22 * ks - q.a12 * kt), ct = by * (q.a11 * kt - q.a12 * ks);
+  const V<T> sideways = cs * xs + ct * xt;
+  const T force = kappa * slope_of_phi;
+  const V<T> on_node = force * n - sideways;
+  store(b.penetration + k, p);
+  store(b.force + k, force);
+  store(b.potential + k, kappa * phi);
+  store3(b.on_node, k, on_node);
+  const T cs4 = quarter * cs, across[4] = {-(cs4 * (one - q.t)) - quarter * (ct * s0), cs4 * (one - q.t) - quarter * (ct * s1),
+                                           cs4 * (one + q.t) + quarter * (ct * s1), quarter * (ct * s0) - cs4 * (one + q.t)};
+  for (int i = 0; i < 4; ++i) {
+    const V<T> f = h[i] * on_node + across[i] * r;
+    store3(b.on_corner[i], k, V<T>{-f.x, -f.y, -f.z});
+  }
+
+  // Motion.
+  V<T> v = simd::gather3(b.v, b.node_v + k, T());
+  V<T> v_last = v;
+  T inverse_mass = inverse(load<T>(b.mass[4] + k));
+  for (int i = 0; i < 4; ++i) {
+    const V<T> vi = simd::gather3(b.v, b.corner_v[i] + k, T());
+    v = v - h[i] * vi;
+    v_last = v_last - load<T>(b.last[i] + k) * vi;
+    inverse_mass = inverse_mass + (h[i] * h[i]) * inverse(load<T>(b.mass[i] + k));
+  }
+  inverse_mass = T(rules.pairs) * inverse_mass;
+  const T step = T(rules.step);
+  const T rate = dot(v, n), closing = -rate;
+  store(b.rate + k, rate);
+  store(b.acceleration + k, force * inverse_mass);
+  store(b.approach + k, rules.gap > 0.0 ? simd::select(closing * step >= T(-0.25) * p, closing * step / gap, zero) : zero);
+  // Account: what the step has made, before and with this force.
+  const T by_step = quarter * load<T>(b.force_before + k) * T(rules.step_before - rules.step) * (rate - load<T>(b.rate_before + k));
+  const T half_step = T(0.5 * rules.step);
+  const T made = load<T>(b.made_before + k) - load<T>(b.stored_before + k) + half_step * dot(load3<T>(b.push_before, k), v_last) + by_step;
+  store(b.made + k, load<T>(b.reckoned + k) * (made + half_step * dot(on_node, v) + kappa * phi));
+  store(b.stepped + k, by_step);
+  if (rules.corrects_switching) {
+    // Neither ends in the coming step as switching.hpp and the account see it.
+    T others = zero;
+    if (rules.mean_step > 0.0) others = (rate - load<T>(b.rate_before + k)) / T(rules.mean_step) - load<T>(b.acceleration_before + k);
+    ordinary = ordinary & (rate * step + (step * step) * (inverse_mass * force + others) <= p);
+    constexpr double longest = 1.2;
+    const T leaves = rate + T(0.5 * (1.0 + longest)) * (step * (inverse_mass * force + others));
+    ordinary = ordinary & (leaves * (T(longest) * step) <= p);
+  }
+
+  // Stiffness for the coming step.
+  constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
+  const T nearing = simd::max(closing, zero);
+  T tangent = one;
+  T bends = one;  // phi'' now
+  if (rules.stiffens) {
+    const T left = one - p / gap;
+    bends = one / (left * left);
+  }
+  store(b.light + k, simd::select(inverse_mass * kappa * bends * (step * step) > T(light_pair), one, zero));
+  if (rules.stiffens) {
+    const T u = simd::max(p + T(step_growth) * (step * nearing), T(rules.smallest)) / gap;
+    const T rest = one - u;
+    tangent = simd::select(u > T(0.9), T(1.0 / ((1.0 - 0.9) * (1.0 - 0.9))), one / (rest * rest));
+    const T room = half * simd::max(gap - p, T(1.0 - 0.9) * gap);
+    const auto soon = (closing > zero) & (room < T(2.0) * (step * closing));
+    store(b.kinematic_step + k, simd::select(soon, room / simd::select(soon, closing, one), T(1e30)));
+  } else {
+    store(b.kinematic_step + k, T(1e30));
+  }
+  const T extra = simd::sqrt(dot(sideways, sideways)) * (slope_of_phi / phi);
+  store(b.step_stiffness + k, T(rules.step_factor) * (kappa * tangent + extra));
+
+  if (rules.rubs) {
+    const T kt_now = T(rules.tangential_ratio) * kappa;
+    const V<T> along = corner[2] - corner[0];
+    const V<T> fa = unit(along), fn = unit(cross(along, corner[3] - corner[1])), fb = cross(fn, fa);
+    const V<T> e = load3<T>(b.slip_before, k), m = load3<T>(b.slip_normal_before, k);
+    const V<T> slip = e.x * fa + e.y * fb + e.z * fn;
+    const V<T> was = m.x * fa + m.y * fb + m.z * fn;
+    const T cosine = dot(was, n);
+    const V<T> axis = cross(was, n);
+    const auto turns = cosine > T(-0.999999);
+    const T part = dot(axis, slip) / simd::select(turns, one + cosine, one);
+    V<T> elastic = select(turns, cosine * slip + cross(axis, slip) + part * axis, slip);
+    elastic = elastic - dot(elastic, n) * n;
+    const V<T> force_before = load<T>(b.tangential_stiffness_before + k) * elastic;
+    V<T> increment{zero, zero, zero};
+    for (int i = 0; i < 4; ++i) increment = increment + (h[i] - load<T>(b.anchor[i] + k)) * corner[i];
+    increment = increment - dot(increment, n) * n;
+    // A stiffer spring takes over the force, a softer one the slip (rub.cpp).
+    const T kt_before = load<T>(b.tangential_stiffness_before + k);
+    const T stored_before = half * (kt_before * dot(elastic, elastic));
+    elastic = simd::select(kt_now > kt_before, kt_before / kt_now, one) * elastic;
+    const V<T> trial = elastic + increment;
+    const T limit = T(rules.friction) * force;
+    const T size = kt_now * simd::sqrt(dot(trial, trial));
+    const auto slides = size > limit;
+    const V<T> now = simd::select(slides, limit / simd::select(slides, size, one), one) * trial;
+    const V<T> friction = kt_now * now;
+    const T work = half * dot(force_before + friction, trial - now);
+    const T at_change = half * dot(force_before + friction, increment) - (half * (kt_now * dot(now, now)) - stored_before);
+    const T of_slip = simd::select(slides, simd::max(work, zero), zero);
+    const auto same = (kt_now <= kt_before) & (kt_now >= kt_before);
+    store(b.dissipated + k, simd::select(same, of_slip, simd::max(at_change, zero)));
+    store(b.stick + k, half * (kt_now * dot(now, now)));
+    store(b.slips + k, simd::select(size >= T(1.0 - 1e-9) * limit, one, zero));
+    store(b.tangential_stiffness + k, kt_now);
+    store3(b.on_surface, k, friction);
+    store3(b.slip, k, V<T>{dot(now, fa), dot(now, fb), dot(now, fn)});
+    store3(b.slip_normal, k, V<T>{dot(n, fa), dot(n, fb), dot(n, fn)});
+  }
+  store(b.ordinary + k, simd::select(ordinary, one, zero));
+}
+
+}  // namespace abut::contact::held

@@ -1,0 +1,192 @@
+// Ordinary held nodes of a pass: into batches for held_kernel(), and out of them.
+#include <cmath>
+
+#include "contact/enforce/account.hpp"
+#include "contact/enforce/pass.hpp"
+
+namespace abut::contact {
+
+bool Pass::in_batches(const HostState& host) const {
+  const Rules& rules = options_.rules;
+  return closest() && settled_ && host.dt > 0.0 && !host.mass.empty() && rules.limits_step && !half_of_facet_ && options_.damping == 0.0 &&
+         options_.start_duration == 0.0 && !rules.reference_friction &&
+         (!options_.rubs() || (options_.friction_law.model == FrictionLaw::Model::coulomb && !options_.filter.acts() &&
+                               options_.shear_limit >= 1e29 && options_.friction >= 0.0));
+}
+
+HeldRules Pass::held_rules(const HostState& host) const {
+  HeldRules r;
+  r.gap = options_.gap;
+  r.stiffness_scale = options_.stiffness_scale;
+  r.tangential_ratio = options_.tangential_ratio;
+  r.friction = options_.friction;
+  r.rubs = options_.rubs();
+  r.step_factor = r.rubs ? std::sqrt(1.0 + r.friction * r.friction) : 1.0;
+  r.step = host.dt;
+  r.mean_step = host.dt_bar_old;
+  r.step_before = step_before(host.dt, host.dt_bar_old);
+  r.smallest = 1e-12 * size_;
+  r.pairs = two_passes_ ? 2.0 : 1.0;
+  r.stiffens = law_.stiffens();
+  r.corrects_switching = options_.rules.switch_correction;
+  return r;
+}
+
+bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
+  const NodeState& before = state_[at(i)];
+  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0) return false;
+  if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
+  const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
+  if (corner[2] == corner[3]) return false;
+  return !options_.rubs() || (before.anchored != 0 && before.anchor.facet == before.facet);
+}
+
+void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
+  const NodeState& before = state_[at(i)];
+  const auto k = static_cast<std::size_t>(batch.count++);
+  const Side& surface = scene.surface;
+  const std::array<Index, 4>& corner = surface.surface().local()[at(before.facet)];
+  const std::array<Index, 4>& host_corner = surface.surface().facets()[at(before.facet)].node;
+  const Index host_node = scene.held.nodes()[at(i)];
+  batch.node[k] = 3 * i;
+  batch.node_v[k] = 3 * host_node;
+  batch.mass[4][k] = scene.host.mass[at(host_node)];
+  batch.node_stiffness[k] = scene.held.node_stiffness(i);
+  for (std::size_t c = 0; c < 4; ++c) {
+    batch.corner[c][k] = 3 * corner[c];
+    batch.corner_v[c][k] = 3 * host_corner[c];
+    batch.mass[c][k] = scene.host.mass[at(host_corner[c])];
+    batch.corner_stiffness[c][k] = surface.corner_stiffness(corner[c]);
+    batch.anchor[c][k] = before.anchor.weight[c];
+    batch.last[c][k] = before.last.weight[c];
+  }
+  const double strip = before.held == 2 ? border_strip + border_widening : border_strip;
+  const double reach = surface.borders(before.facet) != 0 ? 1.0 + 2.0 * strip : 1.0;
+  batch.reach[k] = reach * reach;
+  batch.rate_before[k] = before.rate;
+  batch.acceleration_before[k] = before.acceleration;
+  batch.tangential_stiffness_before[k] = before.tangential_stiffness;
+  const auto put = [k](double(&to)[3][HeldBatch::size], const Vec3& v) {
+    to[0][k] = v.x;
+    to[1][k] = v.y;
+    to[2][k] = v.z;
+  };
+  batch.force_before[k] = before.force;
+  batch.stored_before[k] = before.stored;
+  batch.made_before[k] = before.made;
+  batch.reckoned[k] = before.reckoned;
+  put(batch.push_before, before.push);
+  put(batch.slip_before, before.slip);
+  put(batch.slip_normal_before, before.slip_normal);
+}
+
+void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
+  batch.held_x = &scene.held.x().data()->x;
+  batch.surface_x = &scene.surface.x().data()->x;
+  batch.v = &scene.host.v.data()->x;
+  // Lanes beyond the last node repeat it.
+  const int nodes = batch.count;
+  const std::size_t last = static_cast<std::size_t>(nodes - 1);
+  constexpr int widest = 8;
+  batch.count = (nodes + widest - 1) / widest * widest;
+  const auto repeat = [&](auto& values) {
+    for (std::size_t k = last + 1; k < static_cast<std::size_t>(batch.count); ++k) values[k] = values[last];
+  };
+  repeat(batch.node);
+  repeat(batch.node_v);
+  for (auto* four : {&batch.corner, &batch.corner_v}) {
+    for (auto& one : *four) repeat(one);
+  }
+  for (auto& one : batch.mass) repeat(one);
+  for (auto* four : {&batch.corner_stiffness, &batch.anchor, &batch.last}) {
+    for (auto& one : *four) repeat(one);
+  }
+  for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before,
+                    &batch.force_before, &batch.stored_before, &batch.made_before, &batch.reckoned})
+    repeat(*one);
+  for (auto* three : {&batch.push_before, &batch.slip_before, &batch.slip_normal_before}) {
+    for (auto& one : *three) repeat(one);
+  }
+  held_kernel()(held_rules(scene.host), batch);
+}
+
+bool Pass::alone(const HeldBatch& batch, int lane, Index i) const {
+  const Candidates::Others& others = candidates_.others(i);
+  const NodeState& before = state_[at(i)];
+  if (others.facet != before.facet || (before.held == 2 && !others.wide)) return false;
+  // Beyond what counts as equally near, with room for the rounding of the clock.
+  const double reach = (others.due - candidates_.clock()) * (1.0 - 2.0 * equally_near);
+  return reach > 0.0 && reach * reach > batch.squared_distance[lane];
+}
+
+void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {
+  const auto k = static_cast<std::size_t>(lane);
+  const auto get = [k](const double(&from)[3][HeldBatch::size]) { return Vec3{from[0][k], from[1][k], from[2][k]}; };
+  const NodeState& before = state_[at(i)];
+  NodeState& after = next_[at(i)];
+  PassTotals& totals = sums.totals;
+  SideLoads& loads = scene.held_loads;
+  const Index node = scene.held.nodes()[at(i)];
+
+  totals.largest_approach = std::max(totals.largest_approach, batch.approach[k]);
+  if (batch.kinematic_step[k] < totals.kinematic_step) {
+    totals.kinematic_step = batch.kinematic_step[k];
+    totals.kinematic_node = node;
+  }
+  totals.in_contact += 1;
+  if (batch.penetration[k] > totals.largest_penetration) {
+    totals.largest_penetration = batch.penetration[k];
+    totals.deepest_node = node;
+  }
+  sums.in_contact.push_back(node);
+  totals.potential += batch.potential[k];
+  totals.stepped += batch.stepped[k];
+
+  Reaction reaction{before.facet, batch.step_stiffness[k], {}, {}, {}};
+  for (std::size_t c = 0; c < 4; ++c) {
+    reaction.weight[c] = batch.weight[c][k];
+    reaction.normal[c] = get(batch.on_corner[c]);
+  }
+  const Vec3 on_node = get(batch.on_node);
+  loads.node[at(i)].own_normal = on_node;
+  loads.node[at(i)].own_stiffness += batch.step_stiffness[k];
+  loads.loaded[at(i)] |= SideLoads::now;
+  totals.normal += on_node;
+
+  if (options_.rubs()) {
+    totals.dissipated += batch.dissipated[k];
+    totals.stick += batch.stick[k];
+    slips_[at(i)] = batch.slips[k] != 0.0 ? 1 : 0;
+    const Vec3 on_surface = get(batch.on_surface);
+    reaction.tangential = on_surface;
+    loads.node[at(i)].own_tangential = -on_surface;
+    totals.tangential -= on_surface;
+    after.friction = on_surface;
+    after.anchored = 1;
+    after.anchor = {reaction.weight, before.facet};
+    after.slip = get(batch.slip);
+    after.slip_normal = get(batch.slip_normal);
+    after.tangential_stiffness = batch.tangential_stiffness[k];
+  } else {
+    after = before;
+  }
+  sums.reactions.push_back(reaction);
+  after.normal = get(batch.normal);
+  after.rate = batch.rate[k];
+  after.acceleration = batch.acceleration[k];
+  after.offset = 0.0;
+  after.damping = 0.0;
+  after.force = batch.force[k];
+  after.push = on_node;
+  after.stored = batch.potential[k];
+  after.made = batch.made[k];
+  after.reckoned = before.reckoned;
+  after.light = before.light != 0 || batch.light[k] != 0.0 ? 1 : 0;
+  after.last = before.reckoned != 0 ? SurfacePoint{reaction.weight, before.facet} : before.last;
+  after.facet = before.facet;
+  after.held = before.held;
+  after.ignored = 0;
+  after.in_front = batch.distance[k] >= 0.0 ? 1 : 0;
+}
+
+}  // namespace abut::contact

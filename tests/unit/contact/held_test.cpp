@@ -1,0 +1,252 @@
+// Ordinary held nodes: the packed kernel says what the general way says, to rounding, and the same bits at every width and in any company.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <random>
+
+#include "contact/enforce/friction.hpp"
+#include "contact/enforce/held_formulas.hpp"
+#include "contact/enforce/pair.hpp"
+#include "unit/contact/bench_host.hpp"
+
+namespace abut::contact {
+namespace {
+
+using test::Host;
+
+/// Random nodes over random warped facets, all moving, with a history of friction.
+struct Lanes {
+  std::vector<Vec3> held_x, surface_x, v;
+  HeldRules rules;
+  std::unique_ptr<HeldBatch> batch = std::make_unique<HeldBatch>();
+
+  explicit Lanes(unsigned seed, double gap = 0.3) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    rules = {gap, 0.2, 0.1, 0.3, std::sqrt(1.09), 1e-3, 1e-3, 1e-3, 1e-12, 2.0, gap > 0.0, true, true};
+    constexpr std::array<std::array<double, 2>, 4> square{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+    HeldBatch& b = *batch;
+    b.count = HeldBatch::size;
+    for (int k = 0; k < HeldBatch::size; ++k) {
+      held_x.push_back({1.3 * u(random), 1.3 * u(random), 0.2 * u(random)});
+      v.push_back({u(random), u(random), u(random)});
+      b.node[k] = b.node_v[k] = 3 * k;
+      b.mass[4][k] = 1.0 + 0.5 * u(random);
+      b.node_stiffness[k] = 2.0 + u(random);
+      b.reach[k] = 1.0;
+      b.rate_before[k] = u(random);
+      b.acceleration_before[k] = u(random);
+      b.tangential_stiffness_before[k] = 0.1;
+      double sum = 0.0;
+      for (int c = 0; c < 4; ++c) {
+        const auto& at = square[static_cast<std::size_t>(c)];
+        surface_x.push_back({at[0] + 0.2 * u(random), at[1] + 0.2 * u(random), 0.2 * u(random)});
+        b.corner[c][k] = 3 * (4 * k + c);
+        b.corner_v[c][k] = 3 * (HeldBatch::size + 4 * k + c);
+        b.mass[c][k] = k % 5 == 0 ? 0.0 : 2.0 + u(random);
+        b.corner_stiffness[c][k] = k % 3 == 0 ? 1.0 : 1.0 + 0.4 * u(random);
+        b.anchor[c][k] = c < 3 ? 0.25 + 0.05 * u(random) : 1.0 - sum;
+        sum += b.anchor[c][k];
+      }
+      const Vec3 normal = normalized({0.1 * u(random), 0.1 * u(random), 1.0});
+      const Vec3 across = cross(normal, Vec3{u(random), u(random), u(random)});
+      for (int c = 0; c < 3; ++c) {
+        b.slip_normal_before[c][k] = normal[c];
+        b.slip_before[c][k] = 0.1 * across[c];
+      }
+    }
+    for (int k = 0; k < 4 * HeldBatch::size; ++k) v.push_back({u(random), u(random), u(random)});
+    b.held_x = &held_x.data()->x;
+    b.surface_x = &surface_x.data()->x;
+    b.v = &v.data()->x;
+  }
+  [[nodiscard]] Vec3 corner(int k, int c) const { return surface_x[static_cast<std::size_t>(4 * k + c)]; }
+};
+
+using Column = std::vector<double>;
+
+/// All results of a lane; those of one that is not ordinary are not told.
+Column results(const HeldBatch& b, int k) {
+  if (b.ordinary[k] == 0.0) return {0.0};
+  Column all{1.0,
+             b.squared_distance[k],
+             b.distance[k],
+             b.penetration[k],
+             b.force[k],
+             b.potential[k],
+             b.step_stiffness[k],
+             b.rate[k],
+             b.acceleration[k],
+             b.approach[k],
+             b.kinematic_step[k],
+             b.tangential_stiffness[k],
+             b.stick[k],
+             b.dissipated[k],
+             b.slips[k]};
+  for (int c = 0; c < 3; ++c) {
+    for (const double value : {b.normal[c][k], b.on_node[c][k], b.slip[c][k], b.slip_normal[c][k], b.on_surface[c][k]})
+      all.push_back(value);
+    for (int i = 0; i < 4; ++i) all.push_back(b.on_corner[i][c][k]);
+  }
+  for (int i = 0; i < 4; ++i) all.push_back(b.weight[i][k]);
+  return all;
+}
+
+bool same_bits(const Column& a, const Column& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+template <class T>
+void run(const HeldRules& rules, HeldBatch& b) {
+  for (int k = 0; k < b.count; k += simd::NumberTraits<T>::width) held::ordinary_nodes<T>(rules, b, k);
+}
+
+TEST(HeldKernel, has_the_same_bits_at_every_width) {
+  int ordinary = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const double gap = seed % 4 == 0 ? 0.0 : 0.3;
+    const Lanes scalar(seed, gap), two(seed, gap), active(seed, gap);
+    run<double>(scalar.rules, *scalar.batch);
+    run<simd::Pack<2>>(two.rules, *two.batch);
+    held_kernel()(active.rules, *active.batch);
+    for (int k = 0; k < HeldBatch::size; ++k) {
+      const Column truth = results(*scalar.batch, k);
+      ordinary += truth.size() > 1 ? 1 : 0;
+      ASSERT_TRUE(same_bits(truth, results(*two.batch, k))) << "seed " << seed << " lane " << k;
+      ASSERT_TRUE(same_bits(truth, results(*active.batch, k))) << "seed " << seed << " lane " << k;
+    }
+  }
+  EXPECT_GT(ordinary, 200);
+}
+
+// Lane k computed beside copies of every other lane gives what it gave before: nobody sees the neighbours.
+TEST(HeldKernel, does_not_see_its_neighbours) {
+  const Lanes all(7);
+  held_kernel()(all.rules, *all.batch);
+  for (int shift = 1; shift < 8; ++shift) {
+    Lanes turned(7);
+    HeldBatch& b = *turned.batch;
+    const auto rotate = [shift](auto& values) { std::rotate(std::begin(values), std::begin(values) + shift, std::end(values)); };
+    for (auto* one : {&b.node_stiffness, &b.reach, &b.rate_before, &b.acceleration_before, &b.tangential_stiffness_before}) rotate(*one);
+    for (auto* one : {&b.node, &b.node_v}) rotate(*one);
+    for (int c = 0; c < 4; ++c) {
+      rotate(b.corner[c]);
+      rotate(b.corner_v[c]);
+      rotate(b.corner_stiffness[c]);
+      rotate(b.anchor[c]);
+    }
+    for (auto& mass : b.mass) rotate(mass);
+    for (int c = 0; c < 3; ++c) {
+      rotate(b.slip_before[c]);
+      rotate(b.slip_normal_before[c]);
+    }
+    held_kernel()(turned.rules, b);
+    for (int k = 0; k + shift < HeldBatch::size; ++k)
+      ASSERT_TRUE(same_bits(results(*all.batch, k + shift), results(b, k))) << shift << ", " << k;
+  }
+}
+
+// Projection, weights and normal are those of closest_point(); forces of a node and its facet have no sum and no moment; friction is
+// that of slip().
+TEST(HeldKernel, is_the_general_way_to_rounding) {
+  int ordinary = 0, slides = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Lanes lanes(seed);
+    held_kernel()(lanes.rules, *lanes.batch);
+    const HeldBatch& b = *lanes.batch;
+    for (int k = 0; k < HeldBatch::size; ++k) {
+      if (b.ordinary[k] == 0.0) continue;
+      ++ordinary;
+      const Patch patch{{lanes.corner(k, 0), lanes.corner(k, 1), lanes.corner(k, 2), lanes.corner(k, 3)}, false, 0, border_strip};
+      const Vec3 x = lanes.held_x[static_cast<std::size_t>(k)];
+      const ClosestPoint c = closest_point(patch, x);
+      ASSERT_EQ(c.feature, Feature::face);
+      EXPECT_NEAR(c.squared_distance, b.squared_distance[k], 1e-14);
+      const Vec3 n = normal_at(patch, c.s, c.t), r = x - c.point;
+      const NormalLaw law{lanes.rules.gap};
+      const double p = lanes.rules.gap - dot(n, r);
+      Vec3 sum{b.on_node[0][k], b.on_node[1][k], b.on_node[2][k]};
+      const Vec3 on_node = sum;
+      Vec3 moment{};
+      double k1 = 0.0;
+      for (int i = 0; i < 4; ++i) {
+        const auto corner = static_cast<std::size_t>(i);
+        EXPECT_NEAR(c.weight[corner], b.weight[i][k], 1e-12);
+        const Vec3 f{b.on_corner[i][0][k], b.on_corner[i][1][k], b.on_corner[i][2][k]};
+        sum += f;
+        moment += cross(patch.x[corner] - x, f);
+        k1 += c.weight[corner] * b.corner_stiffness[i][k];
+      }
+      const double kappa = 0.2 * k1 * b.node_stiffness[k] / (k1 + b.node_stiffness[k]);
+      EXPECT_NEAR(b.penetration[k], p, 1e-13);
+      EXPECT_NEAR(b.force[k], kappa * law.force(p), 1e-12 * b.force[k]);
+      EXPECT_NEAR(b.potential[k], kappa * law.potential(p), 1e-12 * b.potential[k]);
+      EXPECT_LT(norm(sum), 1e-14 * norm(on_node));
+      EXPECT_LT(norm(moment), 1e-14 * (1.0 + norm(on_node)));
+      EXPECT_GE(dot(on_node, n), 0.999 * b.force[k]);
+      const double limit = lanes.rules.friction * b.force[k];
+      const Vec3 rubs{b.on_surface[0][k], b.on_surface[1][k], b.on_surface[2][k]};
+      EXPECT_LE(norm(rubs), limit * (1.0 + 1e-14));
+      EXPECT_LT(std::abs(dot(rubs, n)), 1e-14);
+      EXPECT_GE(b.dissipated[k], 0.0);
+      EXPECT_EQ(b.slips[k] != 0.0, norm(rubs) >= (1.0 - 1e-9) * limit);
+      slides += b.slips[k] != 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(ordinary, 300);
+  EXPECT_GT(slides, 20);
+  EXPECT_LT(slides, ordinary);
+}
+
+// A whole interface by batches and node by node (a shear limit that is never reached makes it go the general way): bodies of unequal
+// stiffness, curved, that press, slide, turn and cross facets.
+TEST(HeldKernel, whole_interfaces_agree_with_the_general_way) {
+  std::vector<std::vector<Vec3>> path[2];
+  StepResult last[2];
+  for (const int way : {0, 1}) {
+    Host host;
+    const auto lower = test::grid(host, 9, 8, -2, 2, -2, 2, [](double x, double y) { return 0.05 * x * x - 0.03 * x * y; });
+    const std::size_t first = host.x.size();
+    const auto upper = test::grid(
+        host, 5, 5, -1.03, 1.01, -1.02, 0.97, [](double x, double y) { return 0.11 + 0.05 * x * x - 0.03 * x * y + 0.01 * y * y; }, false,
+        false, 1.0);
+    Options o;
+    o.gap = 0.1;
+    o.friction = 0.25;
+    if (way == 1) o.shear_limit = 1e28;
+    Interface i = Interface::two_surfaces(Surface(lower), Surface(upper), o);
+    std::vector<double> k0(lower.size()), k1(upper.size());
+    for (std::size_t f = 0; f < k0.size(); ++f) k0[f] = 900.0 + 40.0 * static_cast<double>(f % 7);
+    for (std::size_t f = 0; f < k1.size(); ++f) k1[f] = 700.0 + 60.0 * static_cast<double>(f % 5);
+    i.set_surface(0, {k0, {}, {}});
+    i.set_surface(1, {k1, {}, {}});
+    // Rigid motion on rails: the paths of the two ways cannot drift apart, forces are compared in each step.
+    std::vector<Vec3> x = host.x;
+    for (int s = 0; s < 600; ++s) {
+      for (std::size_t n = first; n < x.size(); ++n) {
+        const Vec3 at = host.x[n];
+        x[n] = at + Vec3{0.002 - 0.001 * at.y, 0.001 * at.x, -0.03 * (std::sin(0.02 * (s + 1)) - std::sin(0.02 * s))};
+      }
+      host.place(i, x, 1e-3);
+      path[way].push_back(host.f);
+      path[way].push_back({});
+      for (const double k : host.k) path[way].back().push_back({k, 0.0, 0.0});
+    }
+    last[way] = host.last;
+  }
+  double largest = 0.0;
+  for (const auto& step : path[1]) {
+    for (const Vec3& f : step) largest = std::max(largest, norm(f));
+  }
+  for (std::size_t s = 0; s < path[0].size(); ++s) {
+    for (std::size_t n = 0; n < path[0][s].size(); ++n) ASSERT_LT(norm(path[0][s][n] - path[1][s][n]), 1e-10 * largest) << s << ", " << n;
+  }
+  EXPECT_GT(last[0].friction_work, 0.0);
+  EXPECT_NEAR(last[0].friction_work, last[1].friction_work, 1e-10 * last[1].friction_work);
+  EXPECT_NEAR(last[0].made, last[1].made, 1e-10 * last[1].friction_work);
+}
+
+}  // namespace
+}  // namespace abut::contact
