@@ -75,10 +75,12 @@ Misses search_misses(const test::Shape& shape, unsigned seed) {
       host.x[first + i] = test::rotate(shape.at(place[i][0], place[i][1], place[i][2]), axis, 0.05 * step);
     }
     for (std::size_t i = 0; i < first; ++i) host.x[i] = test::rotate(at_rest[i], axis, 0.05 * step);
+    const std::vector<Vec3> surface_before(surface.x().begin(), surface.x().end()), held_before(held.x().begin(), held.x().end());
     surface.gather(host.x);
     held.gather(host.x);
+    const Motion motion = motion_between(held.x(), held_before, surface.x(), surface_before);
     lists.update(
-        held, surface, [](Index) { return 0.25; }, 0.08, false);
+        held, surface, motion, [](Index) { return 0.25; }, 0.08, false);
     for (Index i = 0; i < held.node_count(); ++i) {
       const Vec3 x = held.x()[at(i)];
       Tracked& t = tracked[at(i)];

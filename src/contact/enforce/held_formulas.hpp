@@ -1,6 +1,7 @@
 // The formulas of held_kernel.hpp over a number type. Always inlined: nothing of it may survive as a symbol of its own.
 #pragma once
 
+#include "contact/enforce/account.hpp"
 #include "contact/enforce/held_kernel.hpp"
 #include "simd/gather.hpp"
 
@@ -220,12 +221,12 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
 
   // Motion.
   V<T> v = simd::gather3(b.v, b.node_v + k, T());
-  V<T> v_last = v;  // over the last contact point
+  V<T> v_last = v;
   T inverse_mass = inverse(load<T>(b.mass[4] + k));
   for (int i = 0; i < 4; ++i) {
-    const V<T> of_corner = simd::gather3(b.v, b.corner_v[i] + k, T());
-    v = v - h[i] * of_corner;
-    v_last = v_last - load<T>(b.last[i] + k) * of_corner;
+    const V<T> vi = simd::gather3(b.v, b.corner_v[i] + k, T());
+    v = v - h[i] * vi;
+    v_last = v_last - load<T>(b.last[i] + k) * vi;
     inverse_mass = inverse_mass + (h[i] * h[i]) * inverse(load<T>(b.mass[i] + k));
   }
   inverse_mass = T(rules.pairs) * inverse_mass;
@@ -234,11 +235,20 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   store(b.rate + k, rate);
   store(b.acceleration + k, force * inverse_mass);
   store(b.approach + k, rules.gap > 0.0 ? simd::select(closing * step >= T(-0.25) * p, closing * step / gap, zero) : zero);
-  T others = zero;
-  if (rules.mean_step > 0.0) others = (rate - load<T>(b.rate_before + k)) / T(rules.mean_step) - load<T>(b.acceleration_before + k);
+  // Account: what the step has made, before and with this force.
+  const T by_step = quarter * load<T>(b.force_before + k) * T(rules.step_before - rules.step) * (rate - load<T>(b.rate_before + k));
+  const T half_step = T(0.5 * rules.step);
+  const T made = load<T>(b.made_before + k) - load<T>(b.stored_before + k) + half_step * dot(load3<T>(b.push_before, k), v_last) + by_step;
+  store(b.made + k, load<T>(b.reckoned + k) * (made + half_step * dot(on_node, v) + kappa * phi));
+  store(b.stepped + k, by_step);
   if (rules.corrects_switching) {
-    // Neither ends in the coming step as switching.hpp sees it.
+    // Neither ends in the coming step as switching.hpp and the account see it.
+    T others = zero;
+    if (rules.mean_step > 0.0) others = (rate - load<T>(b.rate_before + k)) / T(rules.mean_step) - load<T>(b.acceleration_before + k);
     ordinary = ordinary & (rate * step + (step * step) * (inverse_mass * force + others) <= p);
+    constexpr double longest = 1.2;
+    const T leaves = rate + T(0.5 * (1.0 + longest)) * (step * (inverse_mass * force + others));
+    ordinary = ordinary & (leaves * (T(longest) * step) <= p);
   }
 
   // The account, which only a light pair settles: with its last force, in the general way.
@@ -262,6 +272,12 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
   const T nearing = simd::max(closing, zero);
   T tangent = one;
+  T bends = one;  // phi'' now
+  if (rules.stiffens) {
+    const T left = one - p / gap;
+    bends = one / (left * left);
+  }
+  store(b.light + k, simd::select(inverse_mass * kappa * bends * (step * step) > T(light_pair), one, zero));
   if (rules.stiffens) {
     const T u = simd::max(p + T(step_growth) * (step * nearing), T(rules.smallest)) / gap;
     const T rest = one - u;
@@ -295,6 +311,10 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     V<T> increment{zero, zero, zero};
     for (int i = 0; i < 4; ++i) increment = increment + (h[i] - load<T>(b.anchor[i] + k)) * corner[i];
     increment = increment - dot(increment, n) * n;
+    // A stiffer spring takes over the force, a softer one the slip (rub.cpp).
+    const T kt_before = load<T>(b.tangential_stiffness_before + k);
+    const T stored_before = half * (kt_before * dot(elastic, elastic));
+    elastic = simd::select(kt_now > kt_before, kt_before / kt_now, one) * elastic;
     const V<T> trial = elastic + increment;
     const T limit = T(rules.friction) * force;
     const T size = kt_now * simd::sqrt(dot(trial, trial));
@@ -302,11 +322,11 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     const V<T> now = simd::select(slides, limit / simd::select(slides, size, one), one) * trial;
     const V<T> friction = kt_now * now;
     const T work = half * dot(force_before + friction, trial - now);
-    const T stored = half * (kt_now * dot(now, now));
-    const T balance = half * dot(force_before + friction, increment) - (stored - stored_before);
-    const auto changed = (kt_now < kt_before) | (kt_now > kt_before);
-    store(b.dissipated + k, simd::max(simd::select(changed, balance, simd::select(slides, work, zero)), zero));
-    store(b.stick + k, stored);
+    const T at_change = half * dot(force_before + friction, increment) - (half * (kt_now * dot(now, now)) - stored_before);
+    const T of_slip = simd::select(slides, simd::max(work, zero), zero);
+    const auto same = (kt_now <= kt_before) & (kt_now >= kt_before);
+    store(b.dissipated + k, simd::select(same, of_slip, simd::max(at_change, zero)));
+    store(b.stick + k, half * (kt_now * dot(now, now)));
     store(b.slips + k, simd::select(size >= T(1.0 - 1e-9) * limit, one, zero));
     store(b.tangential_stiffness + k, kt_now);
     store3(b.on_surface, k, friction);

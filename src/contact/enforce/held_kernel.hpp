@@ -27,9 +27,7 @@ struct HeldRules {
   double step_factor = 1.0;       ///< sqrt(1 + mu^2): share of friction in the stiffness for the step
   double step = 0.0;              ///< h of the last step, > 0
   double mean_step = 0.0;         ///< the one between the last two forces; 0: unknown
-  double step_before = 0.0;       ///< the step before h
-  double longest_step = 0.0;      ///< that the coming step may have
-  double light_pair = 0.0;        ///< h^2 K/m from which on an account is settled
+  double step_before = 0.0;       ///< the step before that
   double smallest = 0.0;          ///< length: least penetration that the stiffness for the step is taken at
   double pairs = 1.0;             ///< passes: springs that act on the same motion
   bool stiffens = false, rubs = false, corrects_switching = false;
@@ -50,10 +48,9 @@ struct HeldBatch {
   double node_stiffness[size];       ///< K2
   double reach[size];                ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
   double rate_before[size], acceleration_before[size];
-  double anchor[4][size];               ///< weights of the last contact point
-  double force_before[size], stored_before[size], made_before[size], push_before[3][size];
-  double last[4][size];                   ///< weights of the last contact point, on the same facet
-  double reckoned[size], light_before[size];  ///< 1 or 0
+  double anchor[4][size];  ///< weights of the last contact point
+  // Account (account.hpp): the push of the last step, the contact point it acted at, what it held, what was made; 1 where it counts.
+  double push_before[3][size], last[4][size], force_before[size], stored_before[size], made_before[size], reckoned[size];
   double slip_before[3][size], slip_normal_before[3][size], tangential_stiffness_before[size];
 
   // Out.
@@ -69,6 +66,7 @@ struct HeldBatch {
   double slip[3][size], slip_normal[3][size], tangential_stiffness[size];
   double on_surface[3][size];  ///< friction
   double stick[size], dissipated[size], slips[size];
+  double made[size], stepped[size], light[size];
 };
 
 using HeldKernel = void (*)(const HeldRules&, HeldBatch&);

@@ -68,11 +68,11 @@ struct NodeState {
   std::uint8_t reckoned = 0;  ///< `made` counts
   std::uint8_t light = 0;     ///< its steps were once long for its stiffness
   std::array<std::uint8_t, 6> unused{};
-  SurfacePoint last;          ///< last contact point (of a reckoned pair, of anchors)
-  double offset = 0.0;        ///< the gap of this node is smaller by this (initial penetration)
-  double damping = 0.0;       ///< damping force of the last step
+  double offset = 0.0;   ///< the gap of this node is smaller by this (initial penetration)
+  double damping = 0.0;  ///< damping force of the last step
   // What only some rules remember, apart from what every step of every held node touches.
-  Vec3 filtered;  ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
+  Vec3 filtered;      ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
+  SurfacePoint last;  ///< anchors and accounts: last contact point
 };
 
 struct PassTotals {

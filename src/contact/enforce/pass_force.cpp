@@ -8,6 +8,12 @@
 #include "contact/enforce/switching.hpp"
 
 namespace abut::contact {
+namespace {
+
+constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
+
+}  // namespace
+
 Vec3 Pass::velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point) {
   const std::array<Index, 4>& corner = surface.surface().local()[static_cast<std::size_t>(point.facet)];
   Vec3 v = host.v[at(held.nodes()[at(i)])];
@@ -119,10 +125,10 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     }
   }
 
-  const double step_before = Pass::step_before(host);
+  const double h_before = step_before(host.dt, host.dt_bar_old);
   double made = 0.0;  // energy that the pair has made, before this cycle's force
   if (before.held != 0) {
-    const double by_step = made_by_changing_step(before.force, step_before, host.dt, before.rate, motion.rate);
+    const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, motion.rate);
     totals.stepped += by_step;
     if (before.reckoned != 0) {
       made = before.made - before.stored + 0.5 * host.dt * dot(before.push, velocity_over(host, held, surface, i, before.last)) + by_step;
@@ -154,7 +160,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const bool light = lightness > light_pair || before.light != 0;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
-    const double coming = foreseen_step(step_before, host.dt);
+    const double coming = foreseen_step(h_before, host.dt);
     const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
     double force = switched.force;

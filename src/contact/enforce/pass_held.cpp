@@ -1,6 +1,7 @@
 // Ordinary held nodes of a pass: into batches for held_kernel(), and out of them.
 #include <cmath>
 
+#include "contact/enforce/account.hpp"
 #include "contact/enforce/pass.hpp"
 
 namespace abut::contact {
@@ -23,9 +24,7 @@ HeldRules Pass::held_rules(const HostState& host) const {
   r.step_factor = r.rubs ? std::sqrt(1.0 + r.friction * r.friction) : 1.0;
   r.step = host.dt;
   r.mean_step = host.dt_bar_old;
-  r.step_before = step_before(host);
-  r.longest_step = step_growth * host.dt;
-  r.light_pair = light_pair;
+  r.step_before = step_before(host.dt, host.dt_bar_old);
   r.smallest = 1e-12 * size_;
   r.pairs = two_passes_ ? 2.0 : 1.0;
   r.stiffens = law_.stiffens();
@@ -78,6 +77,10 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
     to[1][k] = v.y;
     to[2][k] = v.z;
   };
+  batch.force_before[k] = before.force;
+  batch.stored_before[k] = before.stored;
+  batch.made_before[k] = before.made;
+  batch.reckoned[k] = before.reckoned;
   put(batch.push_before, before.push);
   put(batch.slip_before, before.slip);
   put(batch.slip_normal_before, before.slip_normal);
@@ -105,10 +108,9 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
     for (auto& one : *four) repeat(one);
   }
   for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before,
-                    &batch.force_before, &batch.stored_before, &batch.made_before, &batch.reckoned, &batch.light_before}) {
+                    &batch.force_before, &batch.stored_before, &batch.made_before, &batch.reckoned})
     repeat(*one);
-  }
-  for (auto* three : {&batch.slip_before, &batch.slip_normal_before, &batch.push_before}) {
+  for (auto* three : {&batch.push_before, &batch.slip_before, &batch.slip_normal_before}) {
     for (auto& one : *three) repeat(one);
   }
   held_kernel()(held_rules(scene.host), batch);
@@ -183,10 +185,10 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   after.force = batch.force[k];
   after.push = on_node;
   after.stored = batch.potential[k];
-  after.reckoned = options_.rules.switch_correction ? before.reckoned : 0;
-  after.light = batch.light[k] != 0.0 ? 1 : 0;
-  after.made = after.reckoned != 0 ? batch.made[k] : 0.0;
-  after.last = {reaction.weight, before.facet};
+  after.made = batch.made[k];
+  after.reckoned = before.reckoned;
+  after.light = before.light != 0 || batch.light[k] != 0.0 ? 1 : 0;
+  after.last = before.reckoned != 0 ? SurfacePoint{reaction.weight, before.facet} : before.last;
   after.facet = before.facet;
   after.held = before.held;
   after.ignored = 0;

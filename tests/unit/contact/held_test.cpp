@@ -25,7 +25,7 @@ struct Lanes {
   explicit Lanes(unsigned seed, double gap = 0.3) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
-    rules = {gap, 0.2, 0.1, 0.3, std::sqrt(1.09), 1e-3, 1e-3, 1e-12, 2.0, gap > 0.0, true, true};
+    rules = {gap, 0.2, 0.1, 0.3, std::sqrt(1.09), 1e-3, 1e-3, 1e-3, 1e-12, 2.0, gap > 0.0, true, true};
     constexpr std::array<std::array<double, 2>, 4> square{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
     HeldBatch& b = *batch;
     b.count = HeldBatch::size;
