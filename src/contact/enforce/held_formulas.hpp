@@ -251,23 +251,6 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     ordinary = ordinary & (leaves * (T(longest) * step) <= p);
   }
 
-  // The account, which only a light pair settles: with its last force, in the general way.
-  const T longest = T(rules.longest_step);
-  const auto reckoned = load<T>(b.reckoned + k) > half;
-  T at_p = one;
-  if (rules.stiffens) {
-    const T rest = one - p / gap;
-    at_p = one / (rest * rest);
-  }
-  const auto light = (load<T>(b.light_before + k) > half) | (inverse_mass * (kappa * at_p) * (step * step) > T(rules.light_pair));
-  const T leaves = rate + half * (step + longest) * (inverse_mass * force + others);
-  ordinary = ordinary & !(light & reckoned & (leaves * longest > p));
-  const T by_step = T(0.25 * (rules.step_before - rules.step)) * (load<T>(b.force_before + k) * (rate - load<T>(b.rate_before + k)));
-  const T made = load<T>(b.made_before + k) - load<T>(b.stored_before + k) + half * (step * dot(load3<T>(b.push_before, k), v_last)) + by_step;
-  store(b.made + k, simd::select(reckoned, made + half * (step * dot(on_node, v)) + kappa * phi, zero));
-  store(b.light + k, simd::select(light, one, zero));
-  store(b.stepped + k, by_step);
-
   // Stiffness for the coming step.
   constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
   const T nearing = simd::max(closing, zero);
@@ -304,10 +287,7 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     const T part = dot(axis, slip) / simd::select(turns, one + cosine, one);
     V<T> elastic = select(turns, cosine * slip + cross(axis, slip) + part * axis, slip);
     elastic = elastic - dot(elastic, n) * n;
-    const T kt_before = load<T>(b.tangential_stiffness_before + k);
-    const V<T> force_before = kt_before * elastic;
-    const T stored_before = half * (kt_before * dot(elastic, elastic));
-    elastic = simd::select(kt_now > kt_before, kt_before / kt_now, one) * elastic;
+    const V<T> force_before = load<T>(b.tangential_stiffness_before + k) * elastic;
     V<T> increment{zero, zero, zero};
     for (int i = 0; i < 4; ++i) increment = increment + (h[i] - load<T>(b.anchor[i] + k)) * corner[i];
     increment = increment - dot(increment, n) * n;

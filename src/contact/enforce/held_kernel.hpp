@@ -4,7 +4,6 @@
 //   projection   Newton on |x - X(s,t)|^2 from (0, 0), A ds = -grad, A_ab = X_a.X_b - r.X_ab       (closest_point.hpp)
 //   normal       d = n.r, P = gap - d, kappa = s K1(xi) K2/(K1 + K2), phi of law.hpp                  (pair.hpp)
 //                f = kappa phi' n - c^a X_a,  f_i = -H_i f - c^a H_i,a r,  c^a = phi A^-1_ab dkappa/dxi_b
-//   account      M of account.hpp: every step adds its trapezoidal work, the change of the potential, and what a changing step made
 //   friction     trial e + dg, e' = min(1, L/(k_t |e + dg|)) (e + dg), e in the facet's frame       (friction.hpp)
 //
 // Inside a facet the taper is 1 and its gradient 0, so strips do not appear. A lane is `ordinary` when all that the formulas above
@@ -61,7 +60,6 @@ struct HeldBatch {
   double on_node[3][size], on_corner[4][3][size];
   double potential[size], step_stiffness[size];
   double rate[size], acceleration[size];
-  double stepped[size], made[size], light[size];
   double approach[size], kinematic_step[size];
   double slip[3][size], slip_normal[3][size], tangential_stiffness[size];
   double on_surface[3][size];  ///< friction

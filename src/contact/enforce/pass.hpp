@@ -212,12 +212,6 @@ class Pass {
   [[nodiscard]] double plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const;
   [[nodiscard]] Index swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads,
                                   Index i) const;
-  static constexpr double light_pair = 0.1;   ///< h^2 K/m of a pair, once in its contact, from which on its account is settled
-  static constexpr double step_growth = 1.2;  ///< the coming step may be longer than the last one
-  /// The step before the last one. The first step of a run has none before it.
-  [[nodiscard]] static double step_before(const HostState& host) {
-    return 2.0 * host.dt_bar_old > 1.0001 * host.dt ? 2.0 * host.dt_bar_old - host.dt : host.dt;
-  }
   /// Velocity of a held node relative to a material point of the surface.
   [[nodiscard]] static Vec3 velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point);
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;

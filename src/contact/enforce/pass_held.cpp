@@ -38,7 +38,6 @@ bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
   if (corner[2] == corner[3]) return false;
-  if (before.reckoned != 0 && before.last.facet != before.facet) return false;
   return !options_.rubs() || (before.anchored != 0 && before.anchor.facet == before.facet);
 }
 
@@ -65,11 +64,6 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   const double reach = surface.borders(before.facet) != 0 ? 1.0 + 2.0 * strip : 1.0;
   batch.reach[k] = reach * reach;
   batch.rate_before[k] = before.rate;
-  batch.force_before[k] = before.force;
-  batch.stored_before[k] = before.stored;
-  batch.made_before[k] = before.made;
-  batch.reckoned[k] = before.reckoned;
-  batch.light_before[k] = before.light;
   batch.acceleration_before[k] = before.acceleration;
   batch.tangential_stiffness_before[k] = before.tangential_stiffness;
   const auto put = [k](double(&to)[3][HeldBatch::size], const Vec3& v) {
