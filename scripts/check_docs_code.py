@@ -150,7 +150,8 @@ class Runner:
             return "needs --library"
         (folder / "page.cpp").write_text(block.text + "\n")
         compiler = os.environ.get("CXX", "c++")
-        return self.call([compiler, "-std=c++20", "-Wall", "-Wextra", "-I", str(ROOT / "include"), "page.cpp", str(self.library), "-o", "page"], folder) \
+        libraries = [str(self.library), str(self.library.with_name("libabut_simd.a"))]  # contact's own, and what it needs
+        return self.call([compiler, "-std=c++20", "-Wall", "-Wextra", "-I", str(ROOT / "include"), "page.cpp", *libraries, "-o", "page"], folder) \
             or self.call(["./page"], folder)
 
     def run(self, block, folder):
