@@ -31,11 +31,11 @@ class BothSides final : public InterfaceModel {
   /// A pair with p > 0 and what it carries to the next cycle.
   struct Pair {
     Index node = no_index, facet = no_index;
-    double offset = 0.0;   ///< p_0
-    Vec3 friction{};       ///< F
-    double damping = 0.0;  ///< damping force along the normal
-    double spring = 0.0;   ///< tangential stiffness of the incremental form
-    double rate = 0.0;     ///< normal speed, and
+    double offset = 0.0;        ///< p_0
+    Vec3 friction{};            ///< F
+    double damping = 0.0;       ///< damping force along the normal
+    double spring = 0.0;        ///< tangential stiffness of the incremental form
+    double rate = 0.0;          ///< normal speed, and
     double acceleration = 0.0;  ///< what the pair's own normal force gave it
     std::int64_t acts = 0;      ///< 1: p > 0 in the last cycle
   };
@@ -78,8 +78,7 @@ class BothSides final : public InterfaceModel {
   bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                 Sums& sums);
   [[nodiscard]] double offset_of(const Pair& old, double gap, double penetration) const;
-  void foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness,
-               Sums& sums) const;
+  void foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness, Sums& sums) const;
   [[nodiscard]] double fastest(const HostState& host) const;
   [[nodiscard]] double discrete_work(const HostState& host);
 
@@ -96,8 +95,8 @@ class BothSides final : public InterfaceModel {
   std::vector<Index> in_contact_, scratch_;
   std::vector<std::uint8_t> off_;          // #F: without stiffness for good (drop_facets)
   double widest_ = 0.0, narrowest_ = 0.0;  // largest gap of a facet; smallest gap of any pair
-  double longest_step_ = 0.0;  // so far
-  double fastest_ = 0.0;  // bound of the speed of any node relative to any facet in this cycle
+  double longest_step_ = 0.0;              // so far
+  double fastest_ = 0.0;                   // bound of the speed of any node relative to any facet in this cycle
   bool started_ = false, stale_ = true;
   double initial_elastic_ = 0.0;
   double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0;

@@ -261,8 +261,8 @@ TEST(BothSides, initial_offset_relaxes) {
   }
 }
 
-// A light node on a stiff spring turns around within a few steps (h^2 K/m = 0.72 in contact, 4.8 before it). T = T0 - DW after the bounce, and the
-// interface's own account (CX) says so too; without damping the node leaves as fast as it came.
+// A light node on a stiff spring turns around within a few steps (h^2 K/m = 0.72 in contact, 4.8 before it). T = T0 - DW after the bounce,
+// and the interface's own account (CX) says so too; without damping the node leaves as fast as it came.
 TEST(BothSides, a_damped_bounce_closes_the_balance) {
   for (const double damping : {0.0, 0.05, 0.3}) {
     double worst = 0.0, plain = 0.0;
@@ -289,9 +289,7 @@ TEST(BothSides, a_damped_bounce_closes_the_balance) {
         const double t0 = 0.5e-4;
         const double t = 0.5 * squared_norm(host.v[4]);
         const double error = std::abs(t + host.last.damping_work - t0) / t0;
-        if (corrected) {
-          EXPECT_NEAR(host.last.made / t0, (t + host.last.damping_work - t0) / t0, 0.05) << phase;
-        }
+        if (corrected) { EXPECT_NEAR(host.last.made / t0, (t + host.last.damping_work - t0) / t0, 0.05) << phase; }
         (corrected ? worst : plain) = std::max(corrected ? worst : plain, error);
       }
     }

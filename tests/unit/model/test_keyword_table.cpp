@@ -40,7 +40,7 @@ TEST(KeywordTable, FieldsThatOnlyAFrictionLawAsksForAreFound) {
 
 TEST(KeywordTable, EveryKeywordThatIsReadNamesItsFields) {
   for (const KeywordSupport& k : starter_keywords()) {
-    if (k.treatment == Treatment::taken && k.keyword != "/SHFRA") EXPECT_FALSE(k.fields.empty()) << k.keyword;
+    if (k.treatment == Treatment::taken && k.keyword != "/SHFRA") { EXPECT_FALSE(k.fields.empty()) << k.keyword; }
   }
 }
 
