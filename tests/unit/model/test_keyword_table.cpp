@@ -43,13 +43,38 @@ TEST(KeywordTable, EveryKeywordThatIsReadNamesItsFields) {
     if (k.treatment != Treatment::taken || k.keyword == "/SHFRA") continue;
     EXPECT_FALSE(k.fields.empty()) << k.keyword;
   }
+}
 
-  TEST(KeywordTable, EngineKeywordsAreAskedOfTheReader) {
-    const std::vector<KeywordSupport> all = engine_keywords();
-    EXPECT_EQ(find(all, "/DT/NODA/CST").treatment, Treatment::taken);
-    EXPECT_EQ(find(all, "/PROC").treatment, Treatment::harmless);
-    EXPECT_EQ(find(all, "/DAMP").treatment, Treatment::refused);
-  }
+TEST(KeywordTable, KeywordsWithTextsAndTypesAreProbedInTheirOwnForms) {
+  const std::vector<KeywordSupport> all = starter_keywords();
+  const KeywordSupport& skew = find(all, "/SKEW");
+  EXPECT_EQ(skew.types, (std::vector<std::string>{"FIX", "MOV", "MOV2"}));
+  EXPECT_EQ(field(skew, "Dir", 31).use.card, 1U);
+  EXPECT_EQ(field(skew, "X2", 1).use.card, 3U);  // after the origin, which decks have from version 120 on
+  EXPECT_EQ(field(find(all, "/UNIT"), "local length unit", 21).versions, probed_versions());
+  const KeywordSupport& history = find(all, "/TH");
+  EXPECT_EQ(field(history, "var", 1).use.card, 1U);
+  EXPECT_EQ(field(history, "object", 1).use.card, 2U);
+  EXPECT_EQ(std::count(history.types.begin(), history.types.end(), "ACCEL"), 1);
+  EXPECT_EQ(std::count(history.types.begin(), history.types.end(), "SPRING"), 0);  // is left out by the reader
+  EXPECT_EQ(field(find(all, "/MOVE_FUNCT"), "Fshift_y", 61).use.card, 1U);
+}
+
+TEST(KeywordTable, ListsStandOnce) {
+  const std::vector<KeywordSupport> all = starter_keywords();
+  EXPECT_EQ(find(all, "/SHELL").fields.size(), 5U);
+}
+
+TEST(KeywordTable, WhatIsNotReadSaysWhy) {
+  for (const KeywordSupport& k : starter_keywords()) EXPECT_EQ(k.reason.empty(), k.treatment != Treatment::refused) << k.keyword;
+}
+
+TEST(KeywordTable, EngineKeywordsAreAskedOfTheReader) {
+  const std::vector<KeywordSupport> all = engine_keywords();
+  EXPECT_EQ(find(all, "/DT/NODA/CST").treatment, Treatment::taken);
+  EXPECT_EQ(find(all, "/PROC").treatment, Treatment::harmless);
+  EXPECT_EQ(find(all, "/DAMP").treatment, Treatment::refused);
+}
 
 }  // namespace
 }  // namespace abut::model
