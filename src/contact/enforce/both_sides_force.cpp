@@ -185,6 +185,9 @@ void BothSides::foresee(const HostState& host, Index node, Index facet, double k
   const Opening m = opening(host, node, facet, c);
   const double vn = m.rate;
   sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * old.damping);
+  if (options_.friction_form == BothSidesOptions::Friction::viscous) {
+    sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(m.velocity - vn * c.normal, old.friction));
+  }
   const double p = c.penetration - ahead - 2.0 * longest_step_ * vn;
   if (p <= 0.0) return;
   const auto& corner = surface_.surface().local()[at(facet)];

@@ -218,9 +218,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   normal_force += after.damping;
 
   if (options_.rubs() && rub) {
-    const double mu = friction_coefficient(options_.friction_law, options_.friction, normal_force / surface.facet_area(touch.facet),
+    // The force that settles an account may pull a little: nothing rubs then.
+    const double pressing = std::max(normal_force, 0.0);
+    const double mu = friction_coefficient(options_.friction_law, options_.friction, pressing / surface.facet_area(touch.facet),
                                            norm(motion.tangential_velocity));
-    double limit = mu * normal_force;
+    double limit = mu * pressing;
     if (options_.shear_limit < 1e29 && !rules.reference_friction) {
       const double own_area = held.facet_count() > 0 ? held.tributary_area(i) : surface.facet_area(touch.facet);
       // Two passes act on the same area: each may carry half of the stress.

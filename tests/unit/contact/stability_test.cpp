@@ -262,6 +262,7 @@ TEST(Stability, dampers_are_in_the_step) {
         o.friction = 5.0;  // far from the limit: the viscous branch
         o.friction_viscosity = 1.0;
         o.reference_step = kind == 77;
+        o.switch_correction = kind != 77;
         all.push_back(Interface::both_sides({n}, Surface(facets), o));
         set_stiffness(all[0], 1, 1, 200.0);
       } else {
