@@ -18,11 +18,11 @@ NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
 def same(a, b):
-    """The same words, and numbers that agree to two of their digits (last digit of two printed) or are both below 1e-3."""
+    """The same words, and numbers that agree to two of their digits (last digit of two printed) or are both rounding (below 1e-7)."""
     if NUMBER.sub("#", a) != NUMBER.sub("#", b):
         return False
     pairs = zip(map(float, NUMBER.findall(a)), map(float, NUMBER.findall(b)))
-    return all(abs(x - y) <= 0.12 * max(abs(x), abs(y)) or max(abs(x), abs(y)) < 1e-3 for x, y in pairs)
+    return all(abs(x - y) <= 0.12 * max(abs(x), abs(y)) or max(abs(x), abs(y)) < 1e-7 for x, y in pairs)
 
 
 def main():

@@ -276,9 +276,9 @@ void Animation::cycle(const cycle::Snapshot& now) {
   grid->take(now);
   times_.push_back(now.state->times.t);
   writer_ = std::async(std::launch::async, [this, grid = std::move(grid), times = times_] {
-    write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid->encoded());
-    write_index(times);
-  });
+              write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid->encoded());
+              write_index(times);
+            }).share();
 }
 
 void Animation::wait_for_writer() {

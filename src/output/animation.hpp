@@ -39,9 +39,9 @@ class Animation final : public cycle::Sink {
   struct Grid;
   RunFolder folder_;
   Opening opening_;
-  std::size_t on_disk_ = 0;    ///< states that a checkpoint has brought to the disk
-  std::vector<double> times_;  ///< of the states so far
-  std::future<void> writer_;   ///< of the last state; last member: it uses the others
+  std::size_t on_disk_ = 0;          ///< states that a checkpoint has brought to the disk
+  std::vector<double> times_;        ///< of the states so far
+  std::shared_future<void> writer_;  ///< of the last state, with its failure for all who ask; last member: it uses the others
 };
 
 }  // namespace abut::output

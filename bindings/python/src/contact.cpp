@@ -203,7 +203,7 @@ void set_surface(HeldInterface& i, int side, const std::optional<ArrayLike>& sti
 void set_threads(HeldInterface& i, int threads) {
   if (threads < 1) throw py::value_error("threads must be 1 or more");
   const Work work(i);
-  constexpr std::size_t grain = 256;  // nodes that are worth a thread
+  constexpr std::size_t grain = 4;  // pieces of a loop that are worth a thread
   auto pool = threads > 1 ? std::make_shared<parallel::ThreadPool>(threads) : nullptr;
   i.interface.set_executor(
       pool == nullptr ? contact::Executor{} : [pool](std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {

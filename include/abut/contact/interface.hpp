@@ -46,9 +46,11 @@ struct HostState {
   /// Nodal masses, 0 for a node that cannot move (clamped, imposed motion): first and last contact forces are predicted with them
   /// (and TYPE7 damps with them). Empty: speeds count as constant over a step, which costs accuracy in CX only.
   std::span<const double> mass;
-  double time = 0.0;        ///< t^n
-  double dt = 0.0;          ///< h_-, the step that ended at t^n (0 in the first cycle)
-  double dt_bar_old = 0.0;  ///< (h_- + the one before)/2 (reference impulses, incremental friction)
+  double time = 0.0;  ///< t^n
+  double dt = 0.0;    ///< h_-, the step that ended at t^n (0 in the first cycle)
+  /// (h_- + the one before)/2. First and last forces and accounts of pairs need it, as do reference impulses and incremental friction; a
+  /// host that leaves it 0 says that its step is constant.
+  double dt_bar_old = 0.0;
 };
 
 class Interface {

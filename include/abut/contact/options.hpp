@@ -117,7 +117,7 @@ struct StepResult {
   Index crossed = 0;              ///< nodes that the swept test caught in this step: they would have jumped through
   Index lost = 0;  ///< nodes that went over a free border with P > 0 in this step, held ones or straight through (closest points only)
   double largest_approach = 0.0;  ///< normal approach in the last step, in units of gap (gap > 0)
-  /// Upper limit of the coming step from kinematics (gap - P against closing speed); 1e30: none.
+  /// Upper limit of the coming step: gap - P against closing speed, and the step that a light pair's last force was made for; 1e30: none.
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;  ///< host node that gives it
 };

@@ -47,9 +47,10 @@ struct LastForce {
   return 0.25 * f * (before - now) * (rate_now - rate_before);
 }
 
-/// The coming step as a contact foresees it: steps go on changing as they did.
+/// The coming step as a contact foresees it: steps that grow go on growing. A step that falls is not taken to fall on, for the contact asks
+/// for what it foresees and would make it so.
 [[nodiscard]] inline double foreseen_step(double before, double now) {
-  return now * (before > 0.0 ? std::clamp(now / before, 0.5, 1.1) : 1.0);
+  return now * (before > 0.0 ? std::clamp(now / before, 1.0, 1.1) : 1.0);
 }
 
 }  // namespace abut::contact

@@ -181,9 +181,9 @@ void BothSides::search(const HostState& host) {
   const auto reach_of = [&](Index node) {
     if (between < 0.0) between = warp(surface_);
     const double distance = reach(node);
-    return distance < 0.0 ? distance : distance + between;
+    return distance < 0.0 ? distance : distance + between + (options_.switch_correction ? foresight * options_.gap : 0.0);
   };
-  const bool first = held_last_.size() != held_.x().size();
+  const bool first = stale_ || held_last_.size() != held_.x().size() || surface_last_.size() != surface_.x().size();
   const Motion motion = first ? Motion{} : motion_between(held_.x(), held_last_, surface_.x(), surface_last_);
   candidates_.update(held_, surface_, motion, reach_of, 0.5 * options_.gap, stale_ || first);
   held_last_.assign(held_.x().begin(), held_.x().end());

@@ -28,6 +28,9 @@ class BothSides final : public InterfaceModel {
   void load(HistoryReader& in) override;
 
  private:
+  /// Pairs that will touch are looked for up to this share of the gap beyond it; the search lists hold them.
+  static constexpr double foresight = 0.5;
+
   /// A pair with p > 0 and what it carries to the next cycle.
   struct Pair {
     Index node = no_index, facet = no_index;

@@ -173,11 +173,11 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
 }
 
 /// A pair that will touch within two of the longest steps so far already counts in the nodal sums of stiffness. The step is then short when
-/// it touches: leap-frog makes f (h' - h)(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 4a). The
-/// damper of a pair that has just opened worked over the first half of the last step.
+/// it touches: leap-frog makes f (h' - h)(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 3 and 7a).
+/// The damper of a pair that has just opened worked over the first half of the last step.
 void BothSides::foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness,
                         Sums& sums) const {
-  const double ahead = 2.0 * longest_step_ * fastest_;
+  const double ahead = std::min(2.0 * longest_step_ * fastest_, foresight * options_.gap);
   if (!options_.switch_correction || !(ahead > 0.0)) return;
   const double gap = pair_gap(node, facet);
   const BothSidesContact c = meet(held_, surface_, node, facet, gap + ahead).contact;
@@ -188,7 +188,7 @@ void BothSides::foresee(const HostState& host, Index node, Index facet, double k
   if (options_.friction_form == BothSidesOptions::Friction::viscous) {
     sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(m.velocity - vn * c.normal, old.friction));
   }
-  const double p = c.penetration - ahead - 2.0 * longest_step_ * vn;
+  const double p = c.penetration - ahead + std::min(-2.0 * longest_step_ * vn, ahead);
   if (p <= 0.0) return;
   const auto& corner = surface_.surface().local()[at(facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };

@@ -173,7 +173,8 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   // Normal law.
   const T gap = T(rules.gap);
   const T p = gap - d;
-  ordinary = ordinary & (p > zero);
+  // Within rounding of the gap the general way alone says whether there is a contact.
+  ordinary = ordinary & (p > T(rules.smallest));
   T phi, slope_of_phi;
   if (rules.stiffens) {
     const T u = p / gap;

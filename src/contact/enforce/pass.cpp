@@ -288,6 +288,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   groups_.resize((at(held.node_count()) + at(group) - 1) / at(group));
   std::size_t added = 0;
   const auto evaluate_groups = [this, &scene, &added](std::size_t begin, std::size_t end) {
+    if (begin == end) return;  // an executor may hand out empty ranges: they are nobody's first
     std::array<Touch, at(group)> touches;
     HeldBatch batch;
     for (std::size_t g = begin; g < end; ++g) {

@@ -174,7 +174,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       force = std::clamp(force, switched.force - bound, switched.force + bound);
       const double rate = motion.rate + 0.5 * (host.dt + coming) * (inverse_mass * force + others);
       stored = 0.5 * force * rate * coming + made_by_changing_step(force, host.dt, coming, motion.rate, rate);
-      if (rules.limits_step && coming < totals.kinematic_step) {
+      // Where the account asks for a force of its own, the step must be the one it was made for.
+      if (rules.limits_step && std::abs(force - switched.force) > 1e-3 * touch.pair.magnitude && coming < totals.kinematic_step) {
         totals.kinematic_step = coming;
         totals.kinematic_node = held.nodes()[at(i)];
       }

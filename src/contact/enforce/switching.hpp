@@ -89,7 +89,7 @@ struct Switched {
   Switching near = s;
   near.law.capped = true;
   if (hard <= 0.0) return switched_spring(near, first);
-  Switching far{NormalLaw{}, s.stiffness * NormalLaw::hard_stiffness(), hard, s.step, s.rate, s.inverse_mass, s.others};
+  Switching far{NormalLaw{}, s.stiffness * NormalLaw::hard_stiffness(), hard, s.step, s.rate, s.inverse_mass, s.others, s.coming};
   near.others += s.inverse_mass * far.stiffness * hard;
   const Switched soft = switched_spring(near, first);
   far.others += s.inverse_mass * soft.force;

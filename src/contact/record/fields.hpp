@@ -1,5 +1,5 @@
 // The members of options and results, one by one, for writing and reading. A member that is added to one of these structures
-// breaks the compilation here: add it to the list, and raise log_version in call_log.cpp.
+// breaks the compilation here: add it to the list, and raise log_version in recorder.hpp.
 #pragma once
 
 #include <concepts>

@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "contact/enforce/account.hpp"
 #include "contact/enforce/friction.hpp"
 #include "contact/enforce/held_formulas.hpp"
 #include "contact/enforce/pair.hpp"
@@ -25,7 +26,7 @@ struct Lanes {
   explicit Lanes(unsigned seed, double gap = 0.3) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
-    rules = {gap, 0.2, 0.1, 0.3, std::sqrt(1.09), 1e-3, 1e-3, 1e-3, 1e-12, 2.0, gap > 0.0, true, true};
+    rules = {gap, 0.2, 0.1, 0.3, std::sqrt(1.09), 1e-3, 1.1e-3, 1.2e-3, 1e-12, 2.0, gap > 0.0, true, true};
     constexpr std::array<std::array<double, 2>, 4> square{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
     HeldBatch& b = *batch;
     b.count = HeldBatch::size;
@@ -39,6 +40,11 @@ struct Lanes {
       b.rate_before[k] = u(random);
       b.acceleration_before[k] = u(random);
       b.tangential_stiffness_before[k] = 0.1;
+      b.force_before[k] = 0.5 + 0.5 * u(random);
+      b.stored_before[k] = 0.1 + 0.1 * u(random);
+      b.made_before[k] = 0.1 * u(random);
+      b.reckoned[k] = k % 4 != 0 ? 1.0 : 0.0;
+      for (auto& component : b.push_before) component[k] = u(random);
       double sum = 0.0;
       for (int c = 0; c < 4; ++c) {
         const auto& at = square[static_cast<std::size_t>(c)];
@@ -49,6 +55,7 @@ struct Lanes {
         b.corner_stiffness[c][k] = k % 3 == 0 ? 1.0 : 1.0 + 0.4 * u(random);
         b.anchor[c][k] = c < 3 ? 0.25 + 0.05 * u(random) : 1.0 - sum;
         sum += b.anchor[c][k];
+        b.last[c][k] = b.anchor[c][k];
       }
       const Vec3 normal = normalized({0.1 * u(random), 0.1 * u(random), 1.0});
       const Vec3 across = cross(normal, Vec3{u(random), u(random), u(random)});
@@ -84,7 +91,10 @@ Column results(const HeldBatch& b, int k) {
              b.tangential_stiffness[k],
              b.stick[k],
              b.dissipated[k],
-             b.slips[k]};
+             b.slips[k],
+             b.made[k],
+             b.stepped[k],
+             b.light[k]};
   for (int c = 0; c < 3; ++c) {
     for (const double value : {b.normal[c][k], b.on_node[c][k], b.slip[c][k], b.slip_normal[c][k], b.on_surface[c][k]})
       all.push_back(value);
@@ -129,18 +139,23 @@ TEST(HeldKernel, does_not_see_its_neighbours) {
     Lanes turned(7);
     HeldBatch& b = *turned.batch;
     const auto rotate = [shift](auto& values) { std::rotate(std::begin(values), std::begin(values) + shift, std::end(values)); };
-    for (auto* one : {&b.node_stiffness, &b.reach, &b.rate_before, &b.acceleration_before, &b.tangential_stiffness_before}) rotate(*one);
+    for (auto* one : {&b.node_stiffness, &b.reach, &b.rate_before, &b.acceleration_before, &b.tangential_stiffness_before, &b.force_before,
+                      &b.stored_before, &b.made_before, &b.reckoned}) {
+      rotate(*one);
+    }
     for (auto* one : {&b.node, &b.node_v}) rotate(*one);
     for (int c = 0; c < 4; ++c) {
       rotate(b.corner[c]);
       rotate(b.corner_v[c]);
       rotate(b.corner_stiffness[c]);
       rotate(b.anchor[c]);
+      rotate(b.last[c]);
     }
     for (auto& mass : b.mass) rotate(mass);
     for (int c = 0; c < 3; ++c) {
       rotate(b.slip_before[c]);
       rotate(b.slip_normal_before[c]);
+      rotate(b.push_before[c]);
     }
     held_kernel()(turned.rules, b);
     for (int k = 0; k + shift < HeldBatch::size; ++k)
@@ -186,6 +201,19 @@ TEST(HeldKernel, is_the_general_way_to_rounding) {
       EXPECT_LT(norm(sum), 1e-14 * norm(on_node));
       EXPECT_LT(norm(moment), 1e-14 * (1.0 + norm(on_node)));
       EXPECT_GE(dot(on_node, n), 0.999 * b.force[k]);
+      // The account: trapezoidal work over the last step, the change of the potential, and what the changed step made.
+      const auto over = [&](const double(&weight)[4][HeldBatch::size]) {
+        Vec3 v = lanes.v[static_cast<std::size_t>(k)];
+        for (int i = 0; i < 4; ++i) v -= weight[i][k] * lanes.v[static_cast<std::size_t>(HeldBatch::size + 4 * k + i)];
+        return v;
+      };
+      const double step = lanes.rules.step;
+      const double stepped = made_by_changing_step(b.force_before[k], lanes.rules.step_before, step, b.rate_before[k], b.rate[k]);
+      const Vec3 push{b.push_before[0][k], b.push_before[1][k], b.push_before[2][k]};
+      const double made = b.made_before[k] - b.stored_before[k] + 0.5 * step * dot(push, over(b.last)) + stepped +
+                          0.5 * step * dot(on_node, over(b.weight)) + b.potential[k];
+      EXPECT_NEAR(b.stepped[k], stepped, 1e-15);
+      EXPECT_NEAR(b.made[k], b.reckoned[k] != 0.0 ? made : 0.0, 1e-14);
       const double limit = lanes.rules.friction * b.force[k];
       const Vec3 rubs{b.on_surface[0][k], b.on_surface[1][k], b.on_surface[2][k]};
       EXPECT_LE(norm(rubs), limit * (1.0 + 1e-14));
@@ -229,7 +257,7 @@ TEST(HeldKernel, whole_interfaces_agree_with_the_general_way) {
         const Vec3 at = host.x[n];
         x[n] = at + Vec3{0.002 - 0.001 * at.y, 0.001 * at.x, -0.03 * (std::sin(0.02 * (s + 1)) - std::sin(0.02 * s))};
       }
-      host.place(i, x, 1e-3);
+      host.place(i, x, s % 3 == 0 ? 1e-3 : 1.2e-3);  // accounts count what a changing step makes
       path[way].push_back(host.f);
       path[way].push_back({});
       for (const double k : host.k) path[way].back().push_back({k, 0.0, 0.0});
