@@ -107,7 +107,8 @@ struct StepResult {
   double friction_work = 0.0;  ///< FW: dissipated by slip, never decreases
   double damping_work = 0.0;   ///< DW
   double start_work = 0.0;     ///< SW: work that the growing gap of a gradual start has put in
-  /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW - SW: energy made (> 0) or lost by the numerics
+  /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW - SW + what leap-frog makes where the step changes
+  /// under a contact force: energy made (> 0) or lost by the numerics
   double made = 0.0;
   Vec3 normal_force;  ///< on the second (main) surface
   Vec3 tangential_force;

@@ -3,9 +3,10 @@
 // In leap-frog the force f at t^n changes the kinetic energy by exactly f (h + h')/2 (v + v')/2, h and h' the steps before and after, v and
 // v' the opening speeds in them. Sums of that over a contact miss the potential wherever force or step change abruptly within a step:
 // at its start, at folds between facets, where the step falls or rises. The account M is the energy made so far in that sense,
-//   M_n = M_n-1 + f_n-1 (h v + h v)/4 ... counted as trapezoidal work f_n-1 n_n-1.dr/2 + f_n n_n.dr/2 over dr = h v_rel,
-//         + f_n-1 (h_n-1 - h)(v - v_n-1)/4 (what leap-frog adds when the step changes) + Psi_n - Psi_n-1 - work of a growing gap,
-// and the last force gives the bodies what is left: with R = Psi_n-1 - M_n-1 - f_n-1 n_n-1.dr/2 and w = v + (h + h') a/4,
+//   M_n = M' + f_n n_n.dr/2 + Psi_n - work of a growing gap over the last step,
+//   M'  = M_n-1 - Psi_n-1 + f_n-1 n_n-1.dr/2 + f_n-1 (h_n-1 - h)(v - v_n-1)/4   (the last term: what leap-frog adds when the step changes),
+// dr the motion over the last step relative to the point where the force acted, Psi the energy that it holds; and the last force gives
+// the bodies what is left: with R = -M' and w = v + (h + h') a/4,
 //   J = f (h + h')/2 = m (sqrt(w^2 + 2 R/m) - w),
 // which is exact for a pair alone, whatever its law. m effective mass, a opening acceleration by all other forces.
 #pragma once

@@ -173,7 +173,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
 }
 
 /// A pair that will touch within two of the longest steps so far already counts in the nodal sums of stiffness. The step is then short when
-/// it touches: leap-frog makes f (h' - h)(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 3 and 7a).
+/// it touches: leap-frog makes f (h - h')(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 3 and 7a).
 /// The damper of a pair that has just opened worked over the first half of the last step.
 void BothSides::foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness,
                         Sums& sums) const {
