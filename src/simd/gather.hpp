@@ -15,6 +15,27 @@ struct Triple {
   R x, y, z;
 };
 
+template <class R>
+ABUT_INLINE Triple<R> operator+(const Triple<R>& a, const Triple<R>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class R>
+ABUT_INLINE Triple<R> operator-(const Triple<R>& a, const Triple<R>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class R>
+ABUT_INLINE Triple<R> operator*(R s, const Triple<R>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class R>
+ABUT_INLINE R dot(const Triple<R>& a, const Triple<R>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+ABUT_INLINE Triple<R> cross(const Triple<R>& a, const Triple<R>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 typedef double Pair __attribute__((vector_size(16)));
 
 ABUT_INLINE Pair load_pair(const double* p) {

@@ -156,14 +156,43 @@ def test_friction_takes_energy():
     assert lost == pytest.approx(result.friction_work - result.made, abs=1e-4)
 
 
-def test_one_call_is_three_verbs_and_threads_do_not_matter():
+def test_one_call_is_three_verbs():
     states = []
-    for one_call, threads in ((False, 1), (True, 1), (True, 2)):
+    for one_call in (False, True):
         x, made = interface(law="stiffening", friction=0.2)
-        made.set_threads(threads)
         states.append(flight(made, x, 300, mass=0.1, dt=1e-3, one_call=one_call)[:2])
-    for state in states[1:]:
-        np.testing.assert_array_equal(state, states[0])
+    np.testing.assert_array_equal(states[1], states[0])
+
+
+def sheet(first, n, z, up):
+    """n x n nodes over the unit square from index `first` on, and their quadrilaterals, normals up or down."""
+    side = np.linspace(0, 1, n)
+    x = np.array([(a, b, z) for b in side for a in side])
+    corner = first + np.arange(n * n).reshape(n, n)
+    quads = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
+    return x, quads if up else quads[:, ::-1]
+
+
+def test_threads_do_not_matter():
+    """Sheets of 2500 and 2304 nodes: enough pieces for three threads."""
+    lower, upper = sheet(0, 50, 0.0, True), sheet(2500, 48, 0.8 * GAP, False)
+    x = np.vstack([lower[0], upper[0]])
+    v = np.zeros_like(x)
+    v[2500:] = (0.3, 0.1, -0.5)
+    states = []
+    for threads in (1, 3):
+        made = contact.Interface.two_surfaces(contact.Surface(lower[1]), contact.Surface(upper[1]), contact.Options(gap=GAP, friction=0.2))
+        for side, quads in enumerate((lower[1], upper[1])):
+            made.set_surface(side, stiffness=np.full(len(quads), FACET))
+        made.set_threads(threads)
+        for n in range(5):
+            force, k = np.zeros_like(x), np.zeros(len(x))
+            result = made.step(x + 1e-3 * n * v, v, force, k, dt=1e-3)
+            states.append((force, k))
+        assert result.in_contact > 4000
+    for one, other in zip(states[:5], states[5:]):
+        np.testing.assert_array_equal(one[0], other[0])
+        np.testing.assert_array_equal(one[1], other[1])
 
 
 def test_a_restored_history_goes_on_with_the_same_bits():

@@ -16,9 +16,6 @@
 
 namespace abut::contact {
 
-/// h^2 K/m of a pair, once in its contact, from which on its account is settled.
-inline constexpr double light_pair = 0.1;
-
 /// The step before the last one, from the last one and the mean of the two; the first step of a run has none before it.
 [[nodiscard]] inline double step_before(double step, double mean) { return 2.0 * mean > 1.0001 * step ? 2.0 * mean - step : step; }
 

@@ -1,7 +1,6 @@
 // The formulas of held_kernel.hpp over a number type. Always inlined: nothing of it may survive as a symbol of its own.
 #pragma once
 
-#include "contact/enforce/account.hpp"
 #include "contact/enforce/held_kernel.hpp"
 #include "simd/gather.hpp"
 
@@ -10,26 +9,6 @@ namespace abut::contact::held {
 template <class T>
 using V = simd::Triple<T>;
 
-template <class T>
-ABUT_INLINE V<T> operator+(const V<T>& a, const V<T>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class T>
-ABUT_INLINE V<T> operator-(const V<T>& a, const V<T>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class T>
-ABUT_INLINE V<T> operator*(T s, const V<T>& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-template <class T>
-ABUT_INLINE T dot(const V<T>& a, const V<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class T>
-ABUT_INLINE V<T> cross(const V<T>& a, const V<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 template <class T>
 ABUT_INLINE V<T> unit(const V<T>& a) {
   const T scale = T(1.0) / simd::sqrt(dot(a, a));
@@ -247,13 +226,11 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     T others = zero;
     if (rules.mean_step > 0.0) others = (rate - load<T>(b.rate_before + k)) / T(rules.mean_step) - load<T>(b.acceleration_before + k);
     ordinary = ordinary & (rate * step + (step * step) * (inverse_mass * force + others) <= p);
-    constexpr double longest = 1.2;
-    const T leaves = rate + T(0.5 * (1.0 + longest)) * (step * (inverse_mass * force + others));
-    ordinary = ordinary & (leaves * (T(longest) * step) <= p);
+    const T leaves = rate + T(0.5 * (1.0 + step_growth)) * (step * (inverse_mass * force + others));
+    ordinary = ordinary & (leaves * (T(step_growth) * step) <= p);
   }
 
   // Stiffness for the coming step.
-  constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
   const T nearing = simd::max(closing, zero);
   T tangent = one;
   T bends = one;  // phi'' now

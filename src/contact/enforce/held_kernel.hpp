@@ -17,6 +17,11 @@
 
 namespace abut::contact {
 
+/// h^2 K/m of a pair, once in its contact, from which on its account is settled.
+inline constexpr double light_pair = 0.1;
+/// The coming step may be longer than the last one.
+inline constexpr double step_growth = 1.2;
+
 /// What is the same for all nodes of a pass.
 struct HeldRules {
   double gap = 0.0;               ///< of the law and of the search

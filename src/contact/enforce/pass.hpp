@@ -70,9 +70,8 @@ struct NodeState {
   std::array<std::uint8_t, 6> unused{};
   double offset = 0.0;   ///< the gap of this node is smaller by this (initial penetration)
   double damping = 0.0;  ///< damping force of the last step
-  // What only some rules remember, apart from what every step of every held node touches.
-  Vec3 filtered;      ///< filtered trial friction; return mapping: as a slip in the anchor's facet frame
-  SurfacePoint last;  ///< anchors and accounts: last contact point
+  Vec3 filtered;         ///< with a filter: filtered trial friction; return mapping: as a slip in the anchor's facet frame
+  SurfacePoint last;     ///< anchors and accounts: last contact point
 };
 
 struct PassTotals {

@@ -8,11 +8,6 @@
 #include "contact/enforce/switching.hpp"
 
 namespace abut::contact {
-namespace {
-
-constexpr double step_growth = 1.2;  // the coming step may be longer than the last one
-
-}  // namespace
 
 Vec3 Pass::velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point) {
   const std::array<Index, 4>& corner = surface.surface().local()[static_cast<std::size_t>(point.facet)];

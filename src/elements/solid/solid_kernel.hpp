@@ -32,27 +32,6 @@ template <class R>
 using Vec = simd::Triple<R>;
 using materials::Sym;
 
-template <class R>
-ABUT_INLINE Vec<R> operator+(const Vec<R>& a, const Vec<R>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class R>
-ABUT_INLINE Vec<R> operator-(const Vec<R>& a, const Vec<R>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class R>
-ABUT_INLINE Vec<R> operator*(R s, const Vec<R>& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-template <class R>
-ABUT_INLINE R dot(const Vec<R>& a, const Vec<R>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class R>
-ABUT_INLINE Vec<R> cross(const Vec<R>& a, const Vec<R>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 /// Rows of a 3 x 3 matrix.
 template <class R>
 struct Matrix {

@@ -58,6 +58,16 @@ struct Change {
   }
 };
 
+/// Until the contact that comes has ended.
+void bounce(Host& host, Interface& i, double longest) {
+  bool touched = false;
+  for (int step = 0; step < 4000; ++step) {
+    advance(host, i, longest);
+    touched = touched || host.last.in_contact > 0;
+    if (touched && host.last.in_contact == 0) break;
+  }
+}
+
 /// @param deep    P / Gap that the node would reach
 /// @param flight  gaps that it flies in a step before the contact is seen
 Change node_bounces(double deep, double flight, double facet_mass, Law law) {
@@ -79,12 +89,7 @@ Change node_bounces(double deep, double flight, double facet_mass, Law law) {
     set_stiffness(i, 1, 1, 2.0);
     host.dt = host.before = longest;
     const double before = kinetic(host);
-    bool touched = false;
-    for (int step = 0; step < 4000; ++step) {
-      advance(host, i, longest);
-      touched = touched || host.last.in_contact > 0;
-      if (touched && host.last.in_contact == 0) break;
-    }
+    bounce(host, i, longest);
     result.add(before, kinetic(host), host.last.made);
   }
   return result;
@@ -135,12 +140,7 @@ TEST(ChangingStep, plates_keep_their_energy) {
         const double longest = flight * gap / speed;
         host.dt = host.before = longest;
         const double before = kinetic(host);
-        bool touched = false;
-        for (int step = 0; step < 4000; ++step) {
-          advance(host, i, longest);
-          touched = touched || host.last.in_contact > 0;
-          if (touched && host.last.in_contact == 0) break;
-        }
+        bounce(host, i, longest);
         c.add(before, kinetic(host), host.last.made);
       }
       std::printf("  %.2f gaps per step, P/Gap %.2f: kinetic energy mean %.4f %% worst %.4f %%, CX worst %.4f %%\n", flight, deep,

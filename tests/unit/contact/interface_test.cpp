@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <abut/contact/interface.hpp>
+#include <functional>
+#include <thread>
+#include <vector>
 
 #include "unit/contact/bench_host.hpp"
 
@@ -363,6 +366,46 @@ TEST(Activity, birth_death_and_erosion) {
   const std::vector<std::uint8_t> nobody(1, 0);
   b.interface.set_surface(0, {{}, {}, nobody});
   EXPECT_EQ(b.host.contact(b.interface).in_contact, 0);
+}
+
+// Whoever hands out the loops: ranges in any order, empty ones among them, on threads or not, give the bits of one thread.
+TEST(Executors, hand_out_ranges_as_they_like) {
+  using Body = std::function<void(std::size_t, std::size_t)>;
+  const auto backwards = [](std::size_t count, const Body& body) {
+    body(0, 0);
+    for (std::size_t end = count; end > 0;) {
+      const std::size_t begin = end > 2 ? end - 2 : 0;
+      body(begin, end);
+      body(0, 0);
+      end = begin;
+    }
+  };
+  const auto threads = [](std::size_t count, const Body& body) {
+    std::vector<std::thread> all;
+    for (std::size_t t = 0; t < 3; ++t) all.emplace_back([=, &body] { body(count * t / 3, count * (t + 1) / 3); });
+    for (std::thread& one : all) one.join();
+  };
+  std::vector<std::vector<Vec3>> forces;
+  for (const Executor& executor : {Executor{}, Executor{backwards}, Executor{threads}}) {
+    Host host;
+    const auto wave = [](double x, double y) { return 0.02 * x * x - 0.03 * x * y; };
+    auto lower = grid(host, 40, 40, -2, 2, -2, 2, wave);
+    auto upper = grid(
+        host, 33, 33, -1.6, 1.7, -1.5, 1.8, [&](double x, double y) { return wave(x, y) + 0.09; }, false, false, 1.0);
+    const std::size_t counts[] = {lower.size(), upper.size()};
+    Interface i = Interface::two_surfaces(Surface(std::move(lower)), Surface(std::move(upper)), with(Rules::standard(), 0.1, 0.2));
+    for (const int side : {0, 1}) set_stiffness(i, side, counts[side], 50.0);
+    if (executor) i.set_executor(executor);
+    for (std::size_t n = 41 * 41; n < host.x.size(); ++n) host.v[n] = {0.5, 0.2, -0.3};
+    forces.emplace_back();
+    for (int step = 0; step < 40; ++step) {
+      host.step(i, 0.01);
+      forces.back().insert(forces.back().end(), host.f.begin(), host.f.end());
+    }
+    EXPECT_GT(host.last.in_contact, 600);
+  }
+  EXPECT_EQ(forces[0], forces[1]);
+  EXPECT_EQ(forces[0], forces[2]);
 }
 
 }  // namespace
