@@ -1,7 +1,6 @@
 #include "cycle/contact_area.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace abut::cycle {
 namespace {
@@ -17,7 +16,11 @@ Index surface_of(const model::Interface& card, std::size_t side) {
 }  // namespace
 
 ContactArea::ContactArea(const model::Model& model, std::span<const init::RunInterface> interfaces) {
-  std::map<std::array<Index, 4>, Facet> distinct;
+  struct Listed {
+    std::array<Index, 4> key, nodes;  ///< key: the same for all facets over the same nodes
+    Use use;
+  };
+  std::vector<Listed> listed;
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     const model::Interface& card = model.interfaces[static_cast<std::size_t>(interfaces[i].model_index)];
     for (std::size_t side = 0; side < 2; ++side) {
@@ -27,18 +30,27 @@ ContactArea::ContactArea(const model::Model& model, std::span<const init::RunInt
       for (std::size_t f = 0; f < segments.size(); ++f) {
         std::array<Index, 4> key = segments[f].nodes;
         std::sort(key.begin(), key.end());
-        Facet& facet = distinct.try_emplace(key, Facet{segments[f].nodes, {}}).first->second;
-        facet.uses.push_back({i, side, f});
+        listed.push_back({key, segments[f].nodes, {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(side), f}});
       }
     }
   }
-  for (auto& [key, facet] : distinct) facets_.push_back(std::move(facet));
+  std::stable_sort(listed.begin(), listed.end(), [](const Listed& a, const Listed& b) { return a.key < b.key; });
+  uses_.reserve(listed.size());
+  for (std::size_t k = 0; k < listed.size(); ++k) {
+    if (k == 0 || listed[k].key != listed[k - 1].key) facets_.push_back({listed[k].nodes, 0});
+    uses_.push_back(listed[k].use);
+    facets_.back().uses_end = uses_.size();
+  }
+  facets_.shrink_to_fit();
 }
 
 void ContactArea::write(std::span<const Vec3> x, std::span<const init::RunInterface> interfaces, std::span<double> area) const {
   std::fill(area.begin(), area.end(), 0.0);
+  std::size_t begin = 0;
   for (const Facet& facet : facets_) {
-    const bool active = std::any_of(facet.uses.begin(), facet.uses.end(), [interfaces](const Use& use) {
+    const std::span<const Use> uses = std::span(uses_).subspan(begin, facet.uses_end - begin);
+    begin = facet.uses_end;
+    const bool active = std::any_of(uses.begin(), uses.end(), [interfaces](const Use& use) {
       const auto& flags = interfaces[use.interface].sides[use.side].active;
       return use.facet >= flags.size() || flags[use.facet] != 0;
     });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -23,14 +24,17 @@ class ContactArea {
   void write(std::span<const Vec3> x, std::span<const init::RunInterface> interfaces, std::span<double> area) const;
 
  private:
+  /// A facet of a side of an interface.
   struct Use {
-    std::size_t interface, side, facet;
+    std::uint32_t interface = 0, side = 0;
+    std::size_t facet = 0;
   };
   struct Facet {
-    std::array<Index, 4> nodes;
-    std::vector<Use> uses;
+    std::array<Index, 4> nodes{};
+    std::size_t uses_end = 0;  ///< its uses end here, and begin where those of the facet before it end
   };
   std::vector<Facet> facets_;  ///< distinct, by their nodes
+  std::vector<Use> uses_;
 };
 
 }  // namespace abut::cycle

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <vtkAbstractArray.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataSetAttributes.h>
@@ -12,6 +13,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -103,36 +105,93 @@ struct Animation::Grid {
   [[nodiscard]] std::string encoded() const;
 
  private:
-  struct Cell {
-    CellShape shape;
-    Id id = 0, part_id = 0;
-    ElementPlace place;
-  };
-  void make_cells(const std::vector<Index>& shown);
   void fill_points(const cycle::Snapshot& now);
   void fill_cells(const cycle::Snapshot& now);
 
   AnimationFields fields_;
-  std::vector<Cell> cells_;  ///< all elements of the model
   vtkNew<vtkUnstructuredGrid> grid_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkDoubleArray> time_;
   vtkNew<vtkIdTypeArray> cycle_;
-  std::vector<vtkFloatArray*> node_arrays_, cell_arrays_;  ///< owned by grid_
 };
 
 Animation::Grid::Grid(const cycle::Snapshot& first) : fields_(select_animation_fields(first.model->controls.animation_fields)) {
-  const model::Model& model = *first.model;
-  const std::span<const Vec3> x = model.node_x;
-  const ElementLookup lookup(model, first.groups);
   points_->SetDataTypeToDouble();
-  points_->SetNumberOfPoints(model.node_count());
+  points_->SetNumberOfPoints(first.model->node_count());
   grid_->SetPoints(points_);
+  time_->SetName("TimeValue");
+  time_->SetNumberOfTuples(1);
+  cycle_->SetName("cycle");
+  cycle_->SetNumberOfTuples(1);
+  grid_->GetFieldData()->AddArray(time_);
+  grid_->GetFieldData()->AddArray(cycle_);
+}
 
+void Animation::Grid::fill_points(const cycle::Snapshot& now) {
+  const std::size_t count = now.state->x.size();
+  const auto tuples = static_cast<vtkIdType>(count);
+  std::array<double, 9> value{};
+  for (std::size_t n = 0; n < count; ++n) {
+    const Vec3& x = now.state->x[n];
+    points_->SetPoint(static_cast<vtkIdType>(n), x.x, x.y, x.z);
+  }
+  auto* node_id = add_array<vtkIdTypeArray>(grid_->GetPointData(), "node_id", 1, tuples);
+  std::copy(now.model->node_id.begin(), now.model->node_id.end(), node_id->GetPointer(0));
+  for (const NodeField& field : fields_.nodes) {
+    const auto components = static_cast<std::size_t>(field.components);
+    float* out = add_array<vtkFloatArray>(grid_->GetPointData(), field.name, field.components, tuples)->GetPointer(0);
+    for (std::size_t n = 0; n < count; ++n) {
+      field.write(now, n, value.data());
+      for (std::size_t c = 0; c < components; ++c) *out++ = to_float(value[c]);
+    }
+  }
+}
+
+void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
+  const model::Model& model = *now.model;
+  const std::span<const Vec3> x = model.node_x;
+  const ElementLookup lookup(model, now.groups);
+  const std::size_t all = model.shells.id.size() + model.sh3ns.id.size() + model.bricks.id.size() + model.tetras.id.size();
+  const auto count = static_cast<vtkIdType>(all);
+  auto* element_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "element_id", 1, count);
+  auto* part_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "part_id", 1, count);
+  std::vector<vtkFloatArray*> arrays;
+  for (const CellField& field : fields_.cells) {
+    arrays.push_back(add_array<vtkFloatArray>(grid_->GetCellData(), field.name, field.components, count));
+  }
+  vtkNew<vtkUnsignedCharArray> types;
+  types->Allocate(count);
+  vtkNew<vtkCellArray> cells;
+  cells->Use32BitStorage();  // nodes have 32-bit indices
+  cells->AllocateExact(count, 4 * (count + static_cast<vtkIdType>(model.bricks.id.size())));
+
+  vtkIdType shown = 0;
+  std::array<double, 9> value{};
   const auto add_table = [&](const auto& table, model::ElementKind kind, const auto& shape_of) {
     for (std::size_t e = 0; e < table.id.size(); ++e) {
-      cells_.push_back({shape_of(table.nodes[e]), table.id[e], model.parts[static_cast<std::size_t>(table.part[e])].id,
-                        lookup.find(kind, static_cast<Index>(e))});
+      ElementSample sample;
+      if (const ElementPlace place = lookup.find(kind, static_cast<Index>(e)); place.exists()) {
+        const elements::Group& group = *now.groups[static_cast<std::size_t>(place.group)];
+        sample.output = group.output(place.element);
+        sample.mass = group.element_mass(place.element);
+        sample.group = &group;
+        sample.element = place.element;
+      }
+      if (sample.output.off == 0.0) continue;
+      const CellShape shape = shape_of(table.nodes[e]);
+      std::array<vtkIdType, 8> corners{};
+      std::copy(shape.nodes.begin(), shape.nodes.end(), corners.begin());
+      cells->InsertNextCell(shape.count, corners.data());
+      types->InsertNextValue(static_cast<unsigned char>(vtk_type(shape.kind)));
+      element_id->SetValue(shown, table.id[e]);
+      part_id->SetValue(shown, model.parts[static_cast<std::size_t>(table.part[e])].id);
+      for (std::size_t f = 0; f < fields_.cells.size(); ++f) {
+        const int components = fields_.cells[f].components;
+        fields_.cells[f].write(sample, value.data());
+        float* out = arrays[f]->GetPointer(shown * components);
+        for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) out[c] = to_float(value[c]);
+      }
+      ++shown;
     }
   };
   add_table(model.shells, model::ElementKind::shell4, [](const std::array<Index, 4>& n) {
@@ -145,85 +204,9 @@ Animation::Grid::Grid(const cycle::Snapshot& first) : fields_(select_animation_f
   add_table(model.bricks, model::ElementKind::brick, [x](const std::array<Index, 8>& n) { return brick_shape(n, x); });
   add_table(model.tetras, model::ElementKind::tetra, [x](const std::array<Index, 4>& n) { return tetra_shape(n, x); });
 
-  auto* node_id = add_array<vtkIdTypeArray>(grid_->GetPointData(), "node_id", 1, model.node_count());
-  for (Index n = 0; n < model.node_count(); ++n) node_id->SetValue(n, model.node_id[static_cast<std::size_t>(n)]);
-  for (const NodeField& field : fields_.nodes) {
-    node_arrays_.push_back(add_array<vtkFloatArray>(grid_->GetPointData(), field.name, field.components, model.node_count()));
-  }
-  time_->SetName("TimeValue");
-  time_->SetNumberOfTuples(1);
-  cycle_->SetName("cycle");
-  cycle_->SetNumberOfTuples(1);
-  grid_->GetFieldData()->AddArray(time_);
-  grid_->GetFieldData()->AddArray(cycle_);
-}
-
-void Animation::Grid::make_cells(const std::vector<Index>& shown) {
-  const auto count = static_cast<vtkIdType>(shown.size());
-  grid_->Allocate(count);
-  auto* element_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "element_id", 1, count);
-  auto* part_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "part_id", 1, count);
-  for (const CellField& field : fields_.cells) {
-    cell_arrays_.push_back(add_array<vtkFloatArray>(grid_->GetCellData(), field.name, field.components, count));
-  }
-  for (vtkIdType c = 0; c < count; ++c) {
-    const Cell& cell = cells_[static_cast<std::size_t>(shown[static_cast<std::size_t>(c)])];
-    std::array<vtkIdType, 8> corners{};
-    std::copy(cell.shape.nodes.begin(), cell.shape.nodes.end(), corners.begin());
-    grid_->InsertNextCell(vtk_type(cell.shape.kind), cell.shape.count, corners.data());
-    element_id->SetValue(c, cell.id);
-    part_id->SetValue(c, cell.part_id);
-  }
-}
-
-void Animation::Grid::fill_points(const cycle::Snapshot& now) {
-  const std::size_t count = now.state->x.size();
-  std::array<double, 9> value{};
-  for (std::size_t n = 0; n < count; ++n) {
-    const Vec3& x = now.state->x[n];
-    points_->SetPoint(static_cast<vtkIdType>(n), x.x, x.y, x.z);
-  }
-  points_->Modified();
-  for (std::size_t f = 0; f < fields_.nodes.size(); ++f) {
-    const NodeField& field = fields_.nodes[f];
-    const auto components = static_cast<std::size_t>(field.components);
-    float* out = node_arrays_[f]->GetPointer(0);
-    for (std::size_t n = 0; n < count; ++n) {
-      field.write(now, n, value.data());
-      for (std::size_t c = 0; c < components; ++c) *out++ = to_float(value[c]);
-    }
-    node_arrays_[f]->Modified();
-  }
-}
-
-void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
-  std::vector<Index> shown;
-  std::vector<ElementSample> samples;
-  for (std::size_t e = 0; e < cells_.size(); ++e) {
-    ElementSample sample;
-    if (const ElementPlace place = cells_[e].place; place.exists()) {
-      const elements::Group& group = *now.groups[static_cast<std::size_t>(place.group)];
-      sample.output = group.output(place.element);
-      sample.mass = group.element_mass(place.element);
-      sample.group = &group;
-      sample.element = place.element;
-    }
-    if (sample.output.off == 0.0) continue;
-    shown.push_back(static_cast<Index>(e));
-    samples.push_back(sample);
-  }
-  make_cells(shown);
-
-  std::array<double, 9> value{};
-  for (std::size_t f = 0; f < fields_.cells.size(); ++f) {
-    const auto components = static_cast<std::size_t>(fields_.cells[f].components);
-    float* out = cell_arrays_[f]->GetPointer(0);
-    for (const ElementSample& sample : samples) {
-      fields_.cells[f].write(sample, value.data());
-      for (std::size_t c = 0; c < components; ++c) *out++ = to_float(value[c]);
-    }
-    cell_arrays_[f]->Modified();
-  }
+  for (vtkIdTypeArray* ids : {element_id, part_id}) ids->SetNumberOfTuples(shown);
+  for (vtkFloatArray* array : arrays) array->SetNumberOfTuples(shown);
+  grid_->SetCells(types, cells);
 }
 
 void Animation::Grid::take(const cycle::Snapshot& now) {
@@ -275,7 +258,8 @@ void Animation::cycle(const cycle::Snapshot& now) {
   auto grid = std::make_unique<Grid>(now);
   grid->take(now);
   times_.push_back(now.state->times.t);
-  writer_ = std::async(std::launch::async, [this, grid = std::move(grid), times = times_] {
+  writer_ = std::async(std::launch::async, [this, taken = std::move(grid), times = times_]() mutable {
+              const std::unique_ptr<Grid> grid = std::move(taken);  // gone when it is written, not when the next state is asked for
               write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid->encoded());
               write_index(times);
             }).share();

@@ -75,29 +75,38 @@ void sync_file(const std::filesystem::path& path) {
   if (error != 0) fail("write", path, error);
 }
 
-void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous,
-                     std::initializer_list<std::span<const std::byte>> content) {
-  const std::filesystem::path temporary = temporary_of(path);
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
-  if (descriptor < 0) fail("write", path, errno);
-  int error = 0;
-  for (const std::span<const std::byte> piece : content) {
-    if (error == 0) error = write_all(descriptor, {reinterpret_cast<const char*>(piece.data()), piece.size()});
+DurableFile::DurableFile(std::filesystem::path path) : path_(std::move(path)), temporary_(temporary_of(path_)) {
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
+  if (descriptor_ < 0) fail("write", path_, errno);
+}
+
+DurableFile::~DurableFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(temporary_.c_str());
+}
+
+void DurableFile::write(std::span<const std::byte> piece) {
+  if (const int error = write_all(descriptor_, {reinterpret_cast<const char*>(piece.data()), piece.size()}); error != 0) {
+    fail("write", path_, error);
   }
-  if (error == 0 && ::fsync(descriptor) != 0 && errno != EINVAL) error = errno;
-  if (::close(descriptor) != 0 && error == 0) error = errno;
+}
+
+void DurableFile::replace(const std::filesystem::path& previous) {
+  int error = ::fsync(descriptor_) != 0 && errno != EINVAL ? errno : 0;
+  if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) error = errno;
   // A second name, not a rename: `path` names a complete file all the time.
   if (error == 0 && ::unlink(previous.c_str()) != 0 && errno != ENOENT) error = errno;
-  if (error == 0 && ::link(path.c_str(), previous.c_str()) != 0 && errno != ENOENT) {
+  if (error == 0 && ::link(path_.c_str(), previous.c_str()) != 0 && errno != ENOENT) {
     // No hard links here: between these two renames only `previous` names a file.
-    if (::rename(path.c_str(), previous.c_str()) != 0) error = errno;
+    if (::rename(path_.c_str(), previous.c_str()) != 0) error = errno;
   }
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) error = errno;
   if (error != 0) {
-    ::unlink(temporary.c_str());
-    fail("write", path, error);
+    ::unlink(temporary_.c_str());
+    fail("write", path_, error);
   }
-  sync_file(path.parent_path().empty() ? std::filesystem::path(".") : path.parent_path());
+  sync_file(path_.parent_path().empty() ? std::filesystem::path(".") : path_.parent_path());
 }
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& path) {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,10 +47,25 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 /// Brings a file's content to the disk (fsync): it survives the machine, not only the process. @throws RunError
 void sync_file(const std::filesystem::path& path);
 
-/// write_atomically(), of pieces, that also survives the machine: content, then name. What was at `path` is kept under `previous`; at every
-/// moment at least one of the two names a complete file. @throws RunError; what was there stays
-void replace_durably(const std::filesystem::path& path, const std::filesystem::path& previous,
-                     std::initializer_list<std::span<const std::byte>> content);
+/// A file that is written in pieces beside its place, and survives the machine once it is in it.
+class DurableFile {
+ public:
+  /// @throws RunError
+  explicit DurableFile(std::filesystem::path path);
+  ~DurableFile();  ///< what was not put into its place is gone
+  DurableFile(const DurableFile&) = delete;
+  DurableFile& operator=(const DurableFile&) = delete;
+
+  /// @throws RunError
+  void write(std::span<const std::byte> piece);
+  /// Once, at the end: content, then name. What was at the path is kept under `previous`; at every moment at least one of the two names a
+  /// complete file. @throws RunError; what was there stays
+  void replace(const std::filesystem::path& previous);
+
+ private:
+  std::filesystem::path path_, temporary_;
+  int descriptor_ = -1;
+};
 
 /// Whole file. @throws RunError
 [[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& path);

@@ -103,7 +103,9 @@ run::CheckpointInfo Run::Impl::checkpoint_info() {
 }
 
 void Run::Impl::save(const std::filesystem::path& path, const std::filesystem::path& previous) {
-  state::Archive a;
+  output::DurableFile file(path);
+  state::Sealer sealer([&file](std::span<const std::byte> piece) { file.write(piece); });
+  state::Archive a([&sealer](std::span<const std::byte> piece) { sealer.add(piece); });
   checkpoint_info().persist(a);
   cycle->persist(a);
   std::vector<std::byte> watch = packed([this](state::Archive& part) { watch_->persist(part); });
@@ -119,8 +121,9 @@ void Run::Impl::save(const std::filesystem::path& path, const std::filesystem::p
     a.growing(memory);
     a.growing(files);
   });
-  const state::Seal seal = state::seal(a.bytes());
-  output::replace_durably(path, previous, {seal.head, a.bytes(), seal.tail});
+  a.finish();
+  sealer.finish();
+  file.replace(previous);
 }
 
 void Run::Impl::restore_outputs(run::Checkpoint& from, bool resume) {

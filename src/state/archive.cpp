@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 
 namespace abut::state {
 
@@ -20,21 +19,28 @@ Tag tag_of(std::string_view name) {
 
 void Archive::plain(void* data, std::size_t size) {
   if (size == 0) return;
-  if (!loading_) {
-    if (size_ + size > capacity_) {
-      capacity_ = size_ + size + size_ / 2;
-      auto* grown = static_cast<std::byte*>(std::realloc(bytes_.get(), capacity_));
-      if (grown == nullptr) throw std::bad_alloc();
-      (void)bytes_.release();
-      bytes_.reset(grown);
-    }
-    std::memcpy(bytes_.get() + size_, data, size);
-    size_ += size;
+  done_ += size;
+  if (loading_) {
+    if (size > rest_.size()) throw ArchiveError("the checkpoint ends too early (in part '" + std::string(where_) + "')");
+    std::memcpy(data, rest_.data(), size);
+    rest_ = rest_.subspan(size);
     return;
   }
-  if (size > rest_.size()) throw ArchiveError("the checkpoint ends too early (in part '" + std::string(where_) + "')");
-  std::memcpy(data, rest_.data(), size);
-  rest_ = rest_.subspan(size);
+  const auto* next = static_cast<const std::byte*>(data);
+  if (!out_) {
+    bytes_.insert(bytes_.end(), next, next + size);
+    return;
+  }
+  constexpr std::size_t piece = std::size_t{1} << 20;  // whole words
+  while (size > 0) {
+    const std::size_t part = std::min(size, piece - bytes_.size());
+    bytes_.insert(bytes_.end(), next, next + part);
+    next += part;
+    size -= part;
+    if (bytes_.size() < piece) continue;
+    out_(bytes_);
+    bytes_.clear();
+  }
 }
 
 void Archive::operator()(bool& flag) {
@@ -70,27 +76,24 @@ std::size_t Archive::count(std::size_t own, std::size_t least_bytes) {
 std::size_t Archive::open_section(std::string_view tag) {
   where_ = tag;
   Tag stored = tag_of(tag);
-  std::uint64_t length = 0;
   plain(stored.data(), stored.size());
   if (stored != tag_of(tag)) throw ArchiveError("the checkpoint is damaged: part '" + std::string(tag) + "' is missing");
-  plain(&length, sizeof length);
-  if (!loading_) return size_;
-  if (length > rest_.size()) throw ArchiveError("the checkpoint ends too early (in part '" + std::string(tag) + "')");
-  return rest_.size() - length;  // what must be left when the part is used up
+  return done_;
 }
 
-void Archive::close_section(std::string_view tag, std::size_t mark) {
-  if (!loading_) {
-    const std::uint64_t length = size_ - mark;
-    std::memcpy(bytes_.get() + mark - sizeof length, &length, sizeof length);
-  } else if (rest_.size() != mark) {
-    throw ArchiveError("the checkpoint does not fit the model (part '" + std::string(tag) + "' has another length)");
-  }
+void Archive::close_section(std::string_view tag, std::size_t begin) {
+  const std::uint64_t own = done_ - begin;
+  std::uint64_t length = own;
+  plain(&length, sizeof length);
+  if (length != own) { throw ArchiveError("the checkpoint does not fit the model (part '" + std::string(tag) + "' has another length)"); }
   where_ = "archive";
 }
 
-void Archive::finish() const {
+void Archive::finish() {
   if (loading_ && !rest_.empty()) throw ArchiveError("the checkpoint is damaged: it goes on after its end");
+  if (!out_ || bytes_.empty()) return;
+  out_(bytes_);
+  bytes_.clear();
 }
 
 }  // namespace abut::state

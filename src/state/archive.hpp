@@ -2,19 +2,19 @@
 //
 // Each owner of state has one function `void persist(state::Archive& a)` that names its members in order. With a writing archive
 // it appends them, with a reading one it replaces them; a reading archive trusts nothing: every length is compared with
-// what the owner expects or with what is left, every flag must be 0 or 1, a section must be used up. Numbers are
-// little-endian as in memory.
+// what the owner expects or with what is left, every flag must be 0 or 1, a section must have been as long as it says at its end. Numbers
+// are little-endian as in memory.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "abut/diagnostic.hpp"
@@ -30,13 +30,18 @@ class ArchiveError : public RunError {
 
 class Archive {
  public:
-  Archive() = default;                                                                  ///< writes
-  explicit Archive(std::span<const std::byte> bytes) : rest_(bytes), loading_(true) {}  ///< reads; the bytes must outlive it
+  using Out = std::function<void(std::span<const std::byte>)>;
+
+  Archive() = default;                                 ///< writes into bytes()
+  explicit Archive(Out out) : out_(std::move(out)) {}  ///< hands on what is written, in pieces of whole 8-byte words
+  /// Reads; the bytes must outlive it.
+  explicit Archive(std::span<const std::byte> bytes) : rest_(bytes), loading_(true) {}
 
   [[nodiscard]] bool loading() const { return loading_; }
-  [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.get(), size_}; }
-  /// @throws ArchiveError when something is left over
-  void finish() const;
+  /// What was written and not handed on.
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  /// Writing: hands on the rest. Reading: @throws ArchiveError when something is left over
+  void finish();
 
   template <class T>
   requires std::is_arithmetic_v<T>
@@ -80,12 +85,12 @@ class Archive {
     for (T& record : records) body(record);
   }
 
-  /// A part with a name of at most 8 characters and a length.
+  /// A part with a name of at most 8 characters, and its length behind it.
   template <class Body>
   void section(std::string_view tag, Body&& body) {
-    const std::size_t mark = open_section(tag);
+    const std::size_t begin = open_section(tag);
     body();
-    close_section(tag, mark);
+    close_section(tag, begin);
   }
 
  private:
@@ -93,14 +98,11 @@ class Archive {
   void expect_count(std::size_t expected);
   [[nodiscard]] std::size_t count(std::size_t own, std::size_t least_bytes);
   [[nodiscard]] std::size_t open_section(std::string_view tag);
-  void close_section(std::string_view tag, std::size_t mark);
+  void close_section(std::string_view tag, std::size_t begin);
 
-  struct Free {
-    void operator()(std::byte* p) const { std::free(p); }
-  };
-  /// Grows by realloc, which moves pages and copies nothing where memory is large: a vector would hold the state twice.
-  std::unique_ptr<std::byte, Free> bytes_;
-  std::size_t size_ = 0, capacity_ = 0;
+  std::vector<std::byte> bytes_;
+  Out out_;
+  std::size_t done_ = 0;  ///< bytes written or read so far
   std::span<const std::byte> rest_;
   std::string_view where_ = "archive";
   bool loading_ = false;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "state/archive.hpp"
 
@@ -16,45 +17,49 @@ struct Head {
   std::array<char, 8> magic{};
   std::uint32_t format = checkpoint_format;
   std::uint32_t reserved = 0;
-  std::uint64_t length = 0;
 };
-static_assert(sizeof(Head) == 24);
-
-/// FNV-1a over 64-bit words, the last one filled with zeros. Any single change of a word changes it.
-class Checksum {
- public:
-  /// @param bytes  whole words, but for the last piece
-  void add(std::span<const std::byte> bytes) {
-    for (std::size_t i = 0; i < bytes.size(); i += sizeof hash_) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-      hash_ = (hash_ ^ word) * 0x100000001b3ULL;
-      hash_ ^= hash_ >> 32;
-    }
-  }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+struct Tail {
+  std::uint64_t length = 0, sum = 0;
 };
+static_assert(sizeof(Head) == 16 && sizeof(Tail) == 16);
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
 
 }  // namespace
 
-Seal seal(std::span<const std::byte> content) {
-  const Head head{magic, checkpoint_format, 0, content.size()};
-  Seal out;
-  static_assert(sizeof out.head == sizeof head);
-  std::memcpy(out.head.data(), &head, sizeof head);
-  Checksum sum;
-  sum.add(out.head);
-  sum.add(content);
-  const std::uint64_t value = sum.value();
-  std::memcpy(out.tail.data(), &value, sizeof value);
-  return out;
+void Checksum::add(std::span<const std::byte> bytes) {
+  for (std::size_t i = 0; i < bytes.size(); i += sizeof hash_) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+    hash_ = (hash_ ^ word) * 0x100000001b3ULL;
+    hash_ ^= hash_ >> 32;
+  }
+}
+
+Sealer::Sealer(Out out) : out_(std::move(out)) {
+  const Head head{magic, checkpoint_format, 0};
+  sum_.add(bytes_of(head));
+  out_(bytes_of(head));
+}
+
+void Sealer::add(std::span<const std::byte> piece) {
+  length_ += piece.size();
+  sum_.add(piece);
+  out_(piece);
+}
+
+void Sealer::finish() {
+  sum_.add(bytes_of(length_));
+  const Tail tail{length_, sum_.value()};
+  out_(bytes_of(tail));
 }
 
 std::span<const std::byte> unseal(std::span<const std::byte> file) {
   Head head;
+  Tail tail;
   if (file.size() < sizeof head) throw ArchiveError("it is not a checkpoint of abut, or was cut off");
   std::memcpy(&head, file.data(), sizeof head);
   if (head.magic != magic) throw ArchiveError("it is not a checkpoint of abut");
@@ -62,14 +67,16 @@ std::span<const std::byte> unseal(std::span<const std::byte> file) {
     throw ArchiveError("it has checkpoint format " + std::to_string(head.format) + ", this abut reads format " +
                        std::to_string(checkpoint_format));
   }
-  constexpr std::size_t around = sizeof head + sizeof(std::uint64_t);
-  if (file.size() < around || head.length != file.size() - around) throw ArchiveError("it was cut off");
-  std::uint64_t sum = 0;
-  std::memcpy(&sum, file.data() + file.size() - sizeof sum, sizeof sum);
+  if (file.size() < sizeof head + sizeof tail) throw ArchiveError("it was cut off");
+  const std::span<const std::byte> content = file.subspan(sizeof head, file.size() - sizeof head - sizeof tail);
+  std::memcpy(&tail, content.data() + content.size(), sizeof tail);
+  if (tail.length != content.size()) throw ArchiveError("it was cut off");
   Checksum own;
-  own.add(file.first(file.size() - sizeof sum));
-  if (sum != own.value()) throw ArchiveError("it is damaged: its checksum is wrong");
-  return file.subspan(sizeof head, head.length);
+  own.add(file.first(sizeof head));
+  own.add(content);
+  own.add(bytes_of(tail.length));
+  if (tail.sum != own.value()) throw ArchiveError("it is damaged: its checksum is wrong");
+  return content;
 }
 
 }  // namespace abut::state

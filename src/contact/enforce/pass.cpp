@@ -339,8 +339,37 @@ void Pass::commit() {
   committed_ = true;
 }
 
+namespace {
+
+/// What most nodes remember takes a byte of the history: nothing, or that they were seen in front.
+enum class Remembered : std::uint8_t { nothing, seen_in_front, all };
+
+NodeState plain_state(Remembered r) {
+  NodeState state;
+  state.in_front = r == Remembered::seen_in_front ? 1 : 0;
+  return state;
+}
+
+Remembered remembered(const NodeState& state) {
+  for (const Remembered r : {Remembered::nothing, Remembered::seen_in_front}) {
+    const NodeState plain = plain_state(r);
+    if (std::memcmp(&state, &plain, sizeof plain) == 0) return r;
+  }
+  return Remembered::all;
+}
+
+}  // namespace
+
 void Pass::save(HistoryWriter& out) const {
-  out.put_all(state_);
+  const auto full = std::count_if(state_.begin(), state_.end(), [](const NodeState& s) { return remembered(s) == Remembered::all; });
+  out.reserve(state_.size() + static_cast<std::size_t>(full) * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) +
+              tracked_.size() * sizeof(Tracked) + 64);
+  out.put(static_cast<std::uint64_t>(state_.size()));
+  for (const NodeState& state : state_) {
+    const Remembered r = remembered(state);
+    out.put(r);
+    if (r == Remembered::all) out.put(state);
+  }
   out.put(static_cast<std::uint64_t>(started_ ? depth_.size() : 0));
   for (const double d : depth_) out.put(d);
   for (const double w : widening_) out.put(w);
@@ -350,7 +379,13 @@ void Pass::save(HistoryWriter& out) const {
 }
 
 void Pass::load(HistoryReader& in) {
-  in.get_all(state_);
+  if (in.next<std::uint64_t>() != state_.size()) in.refuse("was made for another interface");
+  for (NodeState& state : state_) {
+    const auto r = in.next<Remembered>();
+    if (r > Remembered::all) in.refuse("is damaged: it has a node that remembers what does not exist");
+    state = plain_state(r);
+    if (r == Remembered::all) in.get(state);
+  }
   next_ = state_;
   std::uint64_t facets = 0;
   in.get(facets);

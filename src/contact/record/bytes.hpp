@@ -37,6 +37,8 @@ class ByteWriter {
   void put_all(const std::vector<T>& values) {
     put_all(std::span<const T>(values));
   }
+  /// Room for so many more bytes, no more than that.
+  void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
   void clear() { bytes_.clear(); }
 

@@ -225,10 +225,11 @@ TEST(Restart, AFileWithARightChecksumIsNotTrusted) {
         for (std::size_t k = at; k < std::min(changed.size(), at + 64); ++k) changed[k] = std::byte(random() & 0xff);
       }
     }
-    const state::Seal seal = state::seal(changed);
-    changed.insert(changed.begin(), seal.head.begin(), seal.head.end());
-    changed.insert(changed.end(), seal.tail.begin(), seal.tail.end());
-    put(folder.file("changed.rst"), changed);
+    std::vector<std::byte> sealed;
+    state::Sealer sealer([&sealed](std::span<const std::byte> piece) { sealed.insert(sealed.end(), piece.begin(), piece.end()); });
+    sealer.add(changed);
+    sealer.finish();
+    put(folder.file("changed.rst"), sealed);
     try {
       abut::Run again = abut::Run::load(model, folder.file("changed.rst"), settings);
       again.advance();  // what was changed is a number that no check can know
