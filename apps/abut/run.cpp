@@ -80,6 +80,12 @@ int run_command(const RunArguments& arguments) {
     (void)Model::read(arguments.deck,
                       {.orient = options.orient, .write_deck = {}, .run = n});  // faults of later decks before anything runs
   }
+  if (model.end_time() <= 0.0) {
+    fmt::print(stderr,
+               "{}: not run: there is no Engine deck {}_0001.rad beside the Starter deck (it gives the final time and the outputs)\n",
+               model.name(), model.name());
+    return 1;
+  }
   RunSettings settings;
   settings.threads = arguments.threads;
   settings.choices = choices_of(arguments.profile, arguments.interface_law);

@@ -12,7 +12,7 @@ namespace abut {
 
 /// Who gives the time step.
 struct StepController {
-  enum class Kind { none, shell, sh3n, brick, tetra, node, interface, fixed } kind = Kind::none;
+  enum class Kind { none, shell, sh3n, brick, tetra, node, interface, fixed, contact_node } kind = Kind::none;
   Id id = 0;
 };
 

@@ -1,4 +1,6 @@
 // Energies, impulses, outputs and checks of a cycle.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,7 +13,8 @@ namespace {
 
 /// Share of the largest energy term that may be made or lost before a run is stopped as wrong, when the deck sets none.
 constexpr double default_error_limit = 0.5;
-/// Cycles in a row that must be beyond the limit: at the start from rest all terms are tiny and their ratio says little.
+/// Cycles in a row that must be beyond it: at the start from rest all terms are tiny and their ratio says little. The limit of /STOP acts
+/// at once.
 constexpr int patience = 100;
 
 class Fnv {
@@ -116,35 +119,44 @@ void Cycle::close_balance() {
 
 void Cycle::check_finite() {
   const double sum = balance_.ie + balance_.he + balance_.ke + balance_.ker + balance_.extw + balance_.ce;
-  const std::string when = " at cycle " + std::to_string(state_.times.cycle) + ", time " + std::to_string(state_.times.t);
+  const std::string when = fmt::format(" at cycle {}, time {:.6g}", state_.times.cycle, state_.times.t);
   if (!std::isfinite(sum)) {
     for (std::size_t i = 0; i < state_.mass.size(); ++i) {
       const Vec3 v = state_.v[i] + state_.a[i];
       const Vec3 w = state_.w[i] + state_.alpha[i];
       if (std::isfinite(v.x + v.y + v.z + w.x + w.y + w.z)) continue;
-      throw RunError("node " + std::to_string(model_.node_id[i]) + " is the first with a motion that is not finite" + when);
+      throw RunError(fmt::format("node {} is the first with a motion that is not finite{}", model_.node_id[i], when));
     }
-    throw RunError("an energy is not finite" + when);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (std::isfinite(parts_[p].ie + parts_[p].he)) continue;
+      throw RunError(fmt::format("the energy of part {} is not finite{}", model_.parts[p].id, when));
+    }
+    throw RunError(fmt::format("{} is not finite{}",
+                               std::isfinite(balance_.ce) ? "the kinetic energy or the external work" : "the contact energy", when));
   }
-  const double asked = model_.controls.stop_energy_error;
-  const double limit = asked > 0.0 ? asked : default_error_limit;
   const model::Controls& stop = model_.controls;
   if (stop.stop_total_mass > 0.0 && balance_.added_mass > stop.stop_total_mass * (balance_.mass - balance_.added_mass)) {
-    throw RunError("added mass of " + std::to_string(balance_.added_mass) + " is beyond the limit of /STOP" + when);
+    throw RunError(fmt::format("mass scaling has added {:.4g}, {:.4g} times the mass of the model: beyond the limit of {:.4g} of /STOP{}",
+                               balance_.added_mass, balance_.added_mass / (balance_.mass - balance_.added_mass), stop.stop_total_mass,
+                               when));
   }
   if (const Index node = time_step_->first_beyond(stop.stop_nodal_mass, state_); node != no_index) {
-    throw RunError("added mass of node " + std::to_string(model_.node_id[static_cast<std::size_t>(node)]) +
-                   " is beyond the nodal limit of /STOP" + when);
+    throw RunError(fmt::format("mass scaling has added more to node {} than {:.4g} times its mass, the nodal limit of /STOP{}",
+                               model_.node_id[static_cast<std::size_t>(node)], stop.stop_nodal_mass, when));
   }
-  beyond_limit_ = std::abs(balance_.err) > limit ? beyond_limit_ + 1 : 0;
-  if (beyond_limit_ < patience) return;
+  const bool asked = stop.stop_energy_error > 0.0;
+  const double limit = asked ? stop.stop_energy_error : default_error_limit;
+  const double error = asked && stop.stop_positive_only ? balance_.err : std::abs(balance_.err);
+  beyond_limit_ = error > limit ? beyond_limit_ + 1 : 0;
+  if (beyond_limit_ < (asked ? 1 : patience)) return;
   std::size_t fastest = 0;
   for (std::size_t i = 0; i < state_.mass.size(); ++i) {
     if (squared_norm(state_.v[i]) > squared_norm(state_.v[fastest])) fastest = i;
   }
-  throw RunError("energy error of " + std::to_string(100.0 * balance_.err) + " % of the largest term is beyond the limit of " +
-                 std::to_string(100.0 * limit) + " %" + when + "; the fastest node is " + std::to_string(model_.node_id[fastest]) +
-                 " (speed " + std::to_string(norm(state_.v[fastest])) + ")");
+  throw RunError(
+      fmt::format("the energy error of {:.4g} % of the largest term is beyond the limit of {:.4g} %{}{}; the fastest node is {} "
+                  "(speed {:.4g})",
+                  100.0 * balance_.err, 100.0 * limit, asked ? " of /STOP" : "", when, model_.node_id[fastest], norm(state_.v[fastest])));
 }
 
 void Cycle::check_minimum_step(const elements::Group& group, const elements::GroupResult& result) const {
@@ -154,8 +166,10 @@ void Cycle::check_minimum_step(const elements::Group& group, const elements::Gro
   if (group.kind() == model::ElementKind::shell3) control = &c.sh3n;
   if (group.kind() == model::ElementKind::tetra) control = &c.tetra;
   if (control->action != model::StepControl::Action::stop || result.step > control->minimum) return;
-  throw RunError("the time step of element " + std::to_string(element_id(group, result.step_element)) + " fell to " +
-                 std::to_string(result.step) + ", below the minimum of /DT, at cycle " + std::to_string(state_.times.cycle));
+  throw RunError(
+      fmt::format("the time step of element {} of part {} fell to {:.4g}, below the minimum {:.4g} of /DT, at cycle {}, time {:.6g}",
+                  element_id(group, result.step_element), model_.parts[static_cast<std::size_t>(group.part())].id, result.step,
+                  control->minimum, state_.times.cycle, state_.times.t));
 }
 
 void Cycle::fill_contact_fields() {

@@ -21,7 +21,8 @@ void persist_controller(state::Archive& a, StepController& controller) {
   auto kind = static_cast<std::int32_t>(controller.kind);
   a(kind);
   a(controller.id);
-  if (kind < 0 || kind > static_cast<std::int32_t>(StepController::Kind::fixed)) throw state::ArchiveError("the checkpoint is damaged");
+  if (kind < 0 || kind > static_cast<std::int32_t>(StepController::Kind::contact_node))
+    throw state::ArchiveError("the checkpoint is damaged");
   controller.kind = static_cast<StepController::Kind>(kind);
 }
 

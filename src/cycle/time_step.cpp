@@ -112,7 +112,7 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
       const auto i = static_cast<std::size_t>(smallest.node);
       const bool contact = !smallest.rotation && contact_stiffness[i] > 0.5 * s.stiffness[i];
       take(nodal_scale_ * std::sqrt(smallest.square),
-           {contact ? StepController::Kind::interface : StepController::Kind::node, model_.node_id[i]});
+           {contact ? StepController::Kind::contact_node : StepController::Kind::node, model_.node_id[i]});
     }
   }
   if (!reference || two_sided_) take(limits.interface_step, limits.interface_controller);

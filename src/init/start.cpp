@@ -42,6 +42,10 @@ std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& mo
     in.profile = profile;
     in.step_scale = control.scale;
     in.step_minimum = control.minimum;
+    const Index property = model.parts[part].property;
+    if (const auto* solid = std::get_if<model::SolidProperty>(&model.properties[static_cast<std::size_t>(property)].data)) {
+      if (solid->dt_min > 0.0 && control.action == model::StepControl::Action::remove) in.step_minimum = solid->dt_min;
+    }
     in.step_action = control.action;
     // With a nodal step the elements' own steps matter only to those who act on them.
     const bool nodal = model.controls.nodal_step || profile.system_step != Profile::SystemStep::reference;

@@ -186,6 +186,9 @@ void read_pressure_load(Context& c, const deck::Block& block) {
   if (!old_layout(c) && r.integer({31, 40}, "Ipinch") != 0) {
     r.error("model.unsupported", {31, 40}, "Ipinch", "pressure on the pinching of shells is not supported; write 0");
   }
+  if (!old_layout(c) && r.integer({41, 50}, "Idel") != 0) {
+    r.error("model.unsupported", {41, 50}, "Idel", "taking the pressure off deleted elements is not supported; write 0");
+  }
   refuse_abscissa(r, {51, 60});
   const Scales s = read_scales(r, dim::pressure);
   l.scale_x = s.x;

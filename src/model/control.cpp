@@ -185,6 +185,19 @@ void read_random(Context& c, const deck::Block& block) {
 
 }  // namespace
 
+/// NAME of NAME_0000.rad, after which the results are called, whatever the header says: two decks of one folder then never share a run
+/// folder. Another file gives its name only where the header has none.
+void take_name_of_file(Context& c) {
+  if (c.deck->files.empty()) return;
+  const std::string stem = std::filesystem::path(c.deck->files.front()).stem().string();
+  constexpr std::string_view starter = "_0000";
+  if (stem.size() > starter.size() && stem.ends_with(starter)) {
+    c.model->name = stem.substr(0, stem.size() - starter.size());
+  } else if (c.model->name.empty()) {
+    c.model->name = stem;
+  }
+}
+
 void read_control(Context& c) {
   const auto& blocks = c.deck->blocks;
   const auto begin = std::find_if(blocks.begin(), blocks.end(), [](const deck::Block& b) { return b.is(0, "BEGIN"); });
@@ -199,7 +212,7 @@ void read_control(Context& c) {
   for (const deck::Block& b : blocks) {
     if (b.is(0, "UNIT")) read_unit(c, b);
   }
-  if (c.model->name.empty() && !c.deck->files.empty()) { c.model->name = std::filesystem::path(c.deck->files.front()).stem().string(); }
+  take_name_of_file(c);
   bool shell_defaults = false;
   bool solid_defaults = false;
   bool title = false;

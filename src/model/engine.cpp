@@ -118,7 +118,9 @@ class EngineReader {
       if (is_keyword(block, "DT") && block.word(1).empty()) read_general_step(block);
     }
     for (const deck::Block& block : engine_.blocks) {
-      if (!read_block(block)) refused_.push_back("/" + joined(block));
+      if (read_block(block)) continue;
+      if (refused_.empty()) first_refused_ = engine_.place(block);
+      refused_.push_back(fmt::format("/{} (line {})", joined(block), engine_.place(block).line));
     }
     Place place;
     place.file = engine_.files.empty() ? std::string{} : engine_.files.front();
@@ -128,7 +130,7 @@ class EngineReader {
     }
     if (!refused_.empty()) {
       c_.diagnostics->error(
-          "engine.unsupported", place,
+          "engine.unsupported", first_refused_,
           fmt::format("these keywords are not supported, and without them the result would be wrong: {}; take them out to run without",
                       fmt::join(refused_, ", ")));
     }
@@ -256,6 +258,7 @@ class EngineReader {
     k_.stop_energy_error = limit(0, "Emax");
     k_.stop_total_mass = limit(1, "Mmax");
     k_.stop_nodal_mass = limit(2, "Nmax");
+    k_.stop_positive_only = d.positive(5, "NERR_POSIT") == 1.0;  // NTH, NANIM: the last history row and the checkpoint are always there
     return true;
   }
 
@@ -284,6 +287,7 @@ class EngineReader {
       control.action = found->second;
     }
     if (control.minimum == 0.0) control.action = Action::none;
+    if (solid && control.action == Action::constant) return false;  // solids do not change to small strain on the way
     if (!block.word(3).empty() && block.word(3) != "0" && control.action != Action::none) return false;  // criteria of shape
     if (solid) k_.brick = k_.tetra = control;
     if (shell) k_.shell = control;
@@ -304,7 +308,12 @@ class EngineReader {
     }
     k_.mass_scaling = true;
     if (block.word(3) == "1") {
-      for (const Id id : d.integers(1, "grnd_ID")) {
+      const std::vector<Id> groups = d.integers(1, "grnd_ID");
+      if (groups.empty()) {
+        d.bad(1, "grnd_ID",
+              "/1 scales the mass of a group of nodes only: write its /GRNOD id on the next line, or take /1 out for all nodes");
+      }
+      for (const Id id : groups) {
         const auto group = c_.tables.node_groups.find(id);
         if (group == c_.tables.node_groups.end()) {
           d.bad(1, "grnd_ID", fmt::format("no /GRNOD with id {}", id));
@@ -380,6 +389,7 @@ class EngineReader {
   int run_;
   bool has_run_ = false;
   std::vector<std::string> refused_;
+  Place first_refused_;
   std::set<std::string> skipped_;
 };
 

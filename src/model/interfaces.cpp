@@ -330,6 +330,26 @@ void orient(Context& c) {
 
 }  // namespace
 
+/// /INTTHICK/V5 takes the property's thickness for gaps where elements have their own.
+void refuse_property_thickness(const Context& c) {
+  const auto own = [](const std::vector<double>& thickness) {
+    return std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0.0; });
+  };
+  if (!own(c.model->shells.thickness) && !own(c.model->sh3ns.thickness)) return;
+  const auto derived = [](const Interface& i) {
+    const auto* t7 = std::get_if<InterfaceType7>(&i.type);
+    return t7 != nullptr && (!t7->gap_given || t7->igap > 0);
+  };
+  if (std::none_of(c.model->interfaces.begin(), c.model->interfaces.end(), derived)) return;
+  for (const deck::Block& b : c.deck->blocks) {
+    if (!is_keyword(b, "INTTHICK")) continue;
+    c.diagnostics->error(
+        "model.unsupported", c.deck->place(b),
+        "gaps of TYPE7 are made from the thickness of each element here, and shells of this deck have their own: take /INTTHICK out "
+        "to run so, or give Gapmin with Igap 0");
+  }
+}
+
 void read_interfaces(Context& c) {
   for (const deck::Block& block : c.deck->blocks) {
     if (is_keyword(block, "INTER", "TYPE3")) c.model->interfaces.push_back(read_type3(c, block));
@@ -339,6 +359,7 @@ void read_interfaces(Context& c) {
   order_by_id(c, c.model->interfaces, "INTER", false);
   fill_table(c.tables.interfaces, c.model->interfaces);
   orient(c);
+  refuse_property_thickness(c);
 }
 
 }  // namespace abut::model

@@ -234,7 +234,9 @@ void check_keywords(Context& c) {
   };
   std::map<std::string, Refusal> refusals;
   std::map<std::string, int> skipped;
+  Place place_of_ams;
   for (const deck::Block& b : c.deck->blocks) {
+    if (b.is(0, "AMS")) place_of_ams = c.deck->place(b);
     const Rule rule = rule_for(b);
     if (rule.treatment == harmless) ++skipped[spelling(b)];
     if (rule.treatment != refused) continue;
@@ -245,7 +247,7 @@ void check_keywords(Context& c) {
   for (const auto& [name, count] : skipped) {
     c.model->skipped.push_back({name, count});
     if (name == "/AMS")
-      c.diagnostics->warning("model.mass_scaling", Place{},
+      c.diagnostics->warning("model.mass_scaling", place_of_ams,
                              "advanced mass scaling (/AMS) is not done: the time step is smaller than with it");
   }
   for (const auto& [name, r] : refusals) {

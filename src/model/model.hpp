@@ -327,6 +327,7 @@ struct Controls {
   StepControl::Action contact_action = StepControl::Action::none;
   double dt_initial = 0.0, dt_max = infinity;                                    ///< /DTIX
   double stop_energy_error = 0.0, stop_total_mass = 0.0, stop_nodal_mass = 0.0;  ///< /STOP; 0 = not checked
+  bool stop_positive_only = false;                                               ///< /STOP, NERR_POSIT: energy that is lost does not stop
   int restart_every = 0;                                                         ///< /RFILE cycles, 0 = none
   std::vector<Id> rbody_on, rbody_off;
 };

@@ -152,6 +152,17 @@ class HistoryReader {
     return variables;
   }
 
+  /// The column of the skew may name a /FRAME (F.1), which has ids of its own.
+  bool names_frame(BlockReader& r) const {
+    const Id id = r.integer({11, 20}, "skew_ID");
+    if (id == 0 || c_.tables.skews.contains(id)) return false;
+    const auto is_it = [id](const deck::Block& b) { return is_keyword(b, "FRAME") && deck::parse_integer(b.word(2)) == id; };
+    if (std::none_of(c_.deck->blocks.begin(), c_.deck->blocks.end(), is_it)) return false;
+    r.warning("model.left_out", {11, 20}, "frame_ID",
+              fmt::format("/FRAME/{} is a moving frame, which outputs cannot be given in; this node is left out (use a /SKEW, or 0)", id));
+    return true;
+  }
+
   void read_lines(BlockReader& r, ThKind kind, const std::set<std::string>& variables) {
     while (r.next_card()) {
       if (r.place({1, 10}, "object").file != r.place().file) return;  // text of an included file below the last object (H.2)
@@ -161,6 +172,7 @@ class HistoryReader {
       }
       const Id id = r.integer({1, 10}, "object");
       if (id == 0) continue;
+      if (kind == ThKind::node && names_frame(r)) continue;
       const Index skew = kind == ThKind::node ? read_skew(r, {11, 20}, "skew_ID") : no_index;
       add(r, kind, id, skew, std::string(r.text({21, 100}, "name")), variables);
     }

@@ -40,6 +40,11 @@ double read_positive(BlockReader& r, deck::Columns columns, std::string_view fie
   return value == 0.0 ? fallback : value;
 }
 
+void must_be_zero(BlockReader& r, deck::Columns columns, std::string_view field, std::string_view what) {
+  const double value = r.real(columns, field);
+  if (value != 0.0) r.error("model.unsupported", columns, field, fmt::format("{} ({:g}) is not supported; write 0", what, value));
+}
+
 void refuse(Reading& in, ElementKind kind, deck::Columns columns, std::string_view field, bool by_default, int value,
             std::string_view right) {
   Diagnostic d;
@@ -148,8 +153,16 @@ SolidProperty read_solid(Reading& in) {
   p.h = read_positive(r, {41, 60}, "h", 0.1);
   if (p.h >= 0.15) r.error("model.hourglass", {41, 60}, "h", fmt::format("the hourglass coefficient is {:g}: it must be below 0.15", p.h));
   if (!old) {
+    for (const auto& [columns, field] : {std::pair{deck::Columns{61, 80}, "Lambda"}, std::pair{deck::Columns{81, 100}, "Mu"}}) {
+      must_be_zero(r, columns, field, "a numerical viscosity of Navier and Stokes");
+    }
     r.next_card();
     p.dt_min = read_positive(r, {1, 20}, "dt_min", 0.0, dim::time);
+    if (version >= 2023) {
+      const std::array<std::pair<deck::Columns, std::string_view>, 4> shapes{
+          {{{21, 40}, "Vdef_min"}, {{41, 60}, "Vdef_max"}, {{61, 80}, "ASP_max"}, {{81, 100}, "COL_min"}}};
+      for (const auto& [columns, field] : shapes) must_be_zero(r, columns, field, "deletion by the shape of an element");
+    }
   }
   return p;
 }

@@ -62,7 +62,8 @@ Json model_json(const model::Model& m, std::span<const double> part_mass) {
                                {"type", interface_type(i)},
                                {"stiffness_scale", i.stfac},
                                {"friction", i.friction},
-                               {"gap", i.gap}});
+                               {"gap", effective_gap(m, i)},
+                               {"gap_is_automatic", has_automatic_gap(i)}});
   }
   j["t_end"] = m.controls.t_end;
   return j;

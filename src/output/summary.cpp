@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <vector>
+
+#include "init/contact_options.hpp"
+#include "output/animation_fields.hpp"
 
 namespace abut::output {
 namespace {
@@ -85,7 +89,8 @@ void print_interfaces(std::string& out, const model::Model& model) {
   print(out, "Interfaces\n");
   for (const model::Interface& i : model.interfaces) {
     print(out, "  {:>8}  {}{}: {}\n", i.id, interface_type(i), quoted(i.title), joins_text(model, i));
-    print(out, "            stiffness scale {:.5g}, friction {:.5g}, gap {:.5g}", i.stfac, i.friction, i.gap);
+    print(out, "            stiffness scale {:.5g}, friction {:.5g}, gap {:.5g}{}", i.stfac, i.friction, effective_gap(model, i),
+          has_automatic_gap(i) ? " (automatic)" : "");
     if (i.t_start > 0.0) print(out, ", from {:.5g}", i.t_start);
     if (i.t_stop < model::infinity) print(out, ", until {:.5g}", i.t_stop);
     print(out, "\n");
@@ -111,6 +116,10 @@ void print_conditions(std::string& out, const model::Model& model) {
 }
 
 void print_controls(std::string& out, const model::Controls& c) {
+  const std::vector<std::string> left_out = select_animation_fields(c.animation_fields).left_out;
+  std::string names;
+  for (const std::string& field : left_out) names += (names.empty() ? "" : ", ") + field;
+  if (!names.empty()) print(out, "Not shown   /ANIM fields that abut does not compute: {}\n", names);
   print(out, "Run         until {:.6g}", c.t_end);
   if (c.history_interval < model::infinity) print(out, ", history every {:.6g}", c.history_interval);
   if (c.animation_interval < model::infinity) print(out, ", animation every {:.6g}", c.animation_interval);
@@ -118,6 +127,16 @@ void print_controls(std::string& out, const model::Controls& c) {
 }
 
 }  // namespace
+
+bool has_automatic_gap(const model::Interface& interface) {
+  const auto* t7 = std::get_if<model::InterfaceType7>(&interface.type);
+  return t7 != nullptr && !t7->gap_given;
+}
+
+double effective_gap(const model::Model& model, const model::Interface& interface) {
+  if (!has_automatic_gap(interface)) return interface.gap;
+  return init::both_sides_options(model, interface, Profile::standard(), model.node_x).gap;
+}
 
 std::string_view interface_type(const model::Interface& interface) {
   constexpr std::string_view names[] = {"TYPE3", "TYPE5", "TYPE7"};
@@ -143,13 +162,15 @@ std::string_view controller_name(cycle::StepController::Kind kind) {
       return "INTER";
     case Kind::fixed:
       return "FIXED";
+    case Kind::contact_node:
+      return "CONTACT AT NODE";
   }
   return "-";
 }
 
 std::string first_step_text(const Inspection& inspection) {
-  constexpr std::string_view names[] = {"nothing",     "shell", "triangle",        "brick",
-                                        "tetrahedron", "node",  "contact at node", "the deck's step limit"};
+  constexpr std::string_view names[] = {
+      "nothing", "shell", "triangle", "brick", "tetrahedron", "node", "interface", "the deck's step limit", "contact at node"};
   const StepController& who = inspection.controller;
   return fmt::format("first time step {:.6g}, controlled by {}{}", inspection.first_step, names[static_cast<std::size_t>(who.kind)],
                      who.id != 0 ? fmt::format(" {}", who.id) : "");

@@ -20,6 +20,12 @@ namespace abut::output {
 [[nodiscard]] std::string_view interface_type(const model::Interface& interface);
 
 /// Who gives the step, in words: "SHELL", "NODE", "INTER", ...; "-" for none.
+/// True where the gap of a TYPE7 comes from thicknesses and segments.
+[[nodiscard]] bool has_automatic_gap(const model::Interface& interface);
+
+/// Gap that the contact works with; the smallest one where it varies from facet to facet.
+[[nodiscard]] double effective_gap(const model::Model& model, const model::Interface& interface);
+
 [[nodiscard]] std::string_view controller_name(cycle::StepController::Kind kind);
 /// "finished", "stopped", "interrupted", "failed".
 [[nodiscard]] std::string_view outcome_name(cycle::Outcome::Kind kind);

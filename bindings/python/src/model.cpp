@@ -112,7 +112,7 @@ void bind_inspection_results(py::module_& m) {
   py::class_<StepController>(m, "StepController", "Who gives the time step.")
       .def_property_readonly(
           "kind", [](const StepController& c) { return name_of(c.kind, controller_kinds); },
-          "'shell4', 'shell3', 'brick', 'tetra', 'node', 'interface', 'fixed' or 'none'")
+          "'shell4', 'shell3', 'brick', 'tetra', 'node', 'interface', 'contact_node', 'fixed' or 'none'")
       .def_readonly("id", &StepController::id, "of the element or node")
       .def("__repr__", [](const StepController& c) { return "<" + name_of(c.kind, controller_kinds) + " " + std::to_string(c.id) + ">"; });
 

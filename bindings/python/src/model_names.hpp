@@ -19,14 +19,15 @@ inline constexpr Names<Outcome::Kind, 4> outcome_kinds{{{"finished", Outcome::Ki
                                                         {"stopped", Outcome::Kind::stopped},
                                                         {"interrupted", Outcome::Kind::interrupted},
                                                         {"failed", Outcome::Kind::failed}}};
-inline constexpr Names<StepController::Kind, 8> controller_kinds{{{"none", StepController::Kind::none},
+inline constexpr Names<StepController::Kind, 9> controller_kinds{{{"none", StepController::Kind::none},
                                                                   {"shell4", StepController::Kind::shell},
                                                                   {"shell3", StepController::Kind::sh3n},
                                                                   {"brick", StepController::Kind::brick},
                                                                   {"tetra", StepController::Kind::tetra},
                                                                   {"node", StepController::Kind::node},
                                                                   {"interface", StepController::Kind::interface},
-                                                                  {"fixed", StepController::Kind::fixed}}};
+                                                                  {"fixed", StepController::Kind::fixed},
+                                                                  {"contact_node", StepController::Kind::contact_node}}};
 
 /// Interface id to the time over which its initial penetrations are pushed out.
 using Durations = std::map<Id, double>;

@@ -30,8 +30,8 @@ struct Reading {
     context.diagnostics = &diagnostics;
   }
   /// Control cards, mesh and sets of `text`.
-  void read(const std::string& text) {
-    deck = deck::read_starter_text(text, "t_0000.rad", diagnostics);
+  void read(const std::string& text, const std::string& file = "t_0000.rad") {
+    deck = deck::read_starter_text(text, file, diagnostics);
     attach();
     read_control(context);
     read_mesh(context);

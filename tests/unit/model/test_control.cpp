@@ -44,7 +44,7 @@ TEST(Control, WorkUnitsConvertEveryDimension) {
   EXPECT_DOUBLE_EQ(factor(dim::velocity), 1.0);
   EXPECT_DOUBLE_EQ(factor(dim::force), 1.0);  // g mm/ms2 = N
   EXPECT_EQ(factor(dim::none), 1.0);
-  EXPECT_EQ(r.model.name, "run");
+  EXPECT_EQ(r.model.name, "t");  // of t_0000.rad, not the "run" of the header: results of two decks of one folder stay apart
   EXPECT_EQ(r.model.units.length_name, "m");
 }
 
@@ -110,7 +110,9 @@ TEST(Control, OldHeaderCarriesVersionAndName) {
   Reading r;
   r.read("#RADIOSS STARTER      41BAR2V41B               0\n/NODE\n");
   EXPECT_EQ(r.model.version, 41);
-  EXPECT_EQ(r.model.name, "BAR2V41B");
+  Reading other;
+  other.read("#RADIOSS STARTER      41BAR2V41B               0\n/NODE\n", "bar.rad");
+  EXPECT_EQ(other.model.name, "BAR2V41B");  // the file is not called NAME_0000.rad
 }
 
 TEST(Control, OldLayoutHasEightColumnsAndTitlesOnTheKeywordLine) {

@@ -1,8 +1,7 @@
-// Checks of a whole model, the summary, and the decks that must build (type3.md T6; deck-format.md E.1).
+// Checks of a whole model, and the decks that must build (type3.md T6; deck-format.md E.1).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "model/summary.hpp"
 #include "unit/model/deck_text.hpp"
 #include "unit/model/fixture.hpp"
 
@@ -40,33 +39,6 @@ TEST(Validate, PartsWithoutElementsAndUnusedFunctionsAreNoted) {
   EXPECT_EQ(b.messages(), (std::vector<std::string>{"note: this part has no element: 9", "note: nothing uses this /FUNCT: 8"}));
 }
 
-TEST(Summary, NamesWhatTheModelHolds) {
-  const std::string text = summary(build_text(base_starter).model);
-  for (const char* line : {
-           "base: two blocks, two plates\n",
-           "  format 2022, units kg mm ms\n",
-           "  26 nodes, 2 SHELL, 0 SH3N, 2 BRICK, 0 TETRA4\n",
-           "Parts (4), mass 2.34e-05 kg and 4e-06 added to nodes\n",
-           "  part 1 \"lower\": 1 BRICK, mass 7.8e-06, property 1 (solid, Isolid 1), material 1 (LAW1 elastic)\n",
-           "  part 3 \"plate\": 1 SHELL, mass 3.9e-06, property 2 (shell, Ishell 1, N 5, t 0.5), material 2 (LAW2 Johnson-Cook)\n",
-           "  interface 1 \"block to block\", TYPE3\n    surface 1 \"lower skin\": 8 nodes, 6 segments (6 on solids)\n",
-           "    Stfac 0.2, gap 0.01, friction 0.2\n",
-           "  interface 2 \"cover to plate\", TYPE5\n    4 secondary nodes\n    surface 3 \"plate\": 4 nodes, 1 segments (1 on shells)\n",
-           "  rigid body 1: 4 secondary nodes\n",
-           "  rigid wall 1 \"floor\": with friction plane, 4 nodes, normal (0, 0, 1)\n",
-           "  until 0.05 ms, history every 0.0005, animation every 0.005 from 0\n",
-           "  time history of 1 NODE, 4 PART, 2 INTER\n",
-           "  animation of VECT/VEL, ELEM/VONM\n",
-       }) {
-    EXPECT_NE(text.find(line), std::string::npos) << line << "is not in\n" << text;
-  }
-}
-
-TEST(Summary, ListsWhatIsReadPast) {
-  const Built b = build_text(with_line(base_starter, "/SENSOR/TIME/1", 0, "/IOFLAG\n         5\n/SPMD\n         0\n/SENSOR/TIME/1"));
-  EXPECT_NE(summary(b.model).find("Read past, as they cannot change the mechanics\n  /IOFLAG (1)\n  /SPMD (1)\n"), std::string::npos);
-}
-
 TEST(SharedDecks, BuildWithoutAnError) {
   const std::filesystem::path folder = testing::decks_folder();
   if (folder.empty()) GTEST_SKIP() << "no shared decks: set ABUT_DECKS to the folder that holds them";
@@ -80,7 +52,6 @@ TEST(SharedDecks, BuildWithoutAnError) {
     EXPECT_GT(m.controls.t_end, 0.0);
     EXPECT_LT(m.controls.history_interval, infinity);
     EXPECT_FALSE(m.th_requests.empty());
-    EXPECT_FALSE(summary(m).empty());
     ++decks;
   }
   EXPECT_GT(decks, 0);

@@ -75,7 +75,7 @@ export function interfaceLines(columns: Columns, id: number): Line[] {
 }
 
 /** Who gives the time step, as numbers of GLOBAL/DTKIND (output/history_columns.cpp). */
-export const controllers = ["none", "shell", "3-node shell", "brick", "tetrahedron", "node", "interface", "fixed"];
+export const controllers = ["none", "shell", "3-node shell", "brick", "tetrahedron", "node", "interface", "fixed", "contact at node"];
 
 export interface ControllerShare {
   kind: number;
