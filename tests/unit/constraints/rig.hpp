@@ -106,6 +106,7 @@ struct Rig {
       s.a[i] = s.mass[i] > 0.0 ? s.f[i] / s.mass[i] : Vec3{};
       s.alpha[i] = s.inertia[i] > 0.0 ? s.m[i] / s.inertia[i] : Vec3{};
     }
+    bodies.accelerate(s, conditions);
     gravities.apply(s);
     external += gravities.book_work(s);
     conditions.apply(s);
