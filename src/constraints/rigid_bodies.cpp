@@ -5,10 +5,7 @@
 // `conserving`: the gyroscopic term is taken at w + h_bar alpha / 2 (implicit midpoint rule in the body's axes: w.Jw and |Jw|
 // are then invariants of a free body to rounding, for any sequence of steps), solved by fixed-point iteration once h_bar is
 // known. Secondary nodes move on the chord of their exact rotation, v' = v_M' + (R(h_+ w') r - r) / h_+, so that distances do not
-// drift. Nodal stiffnesses K_I at arms r_I, which the step takes as 1/2 h^2 K <= m node by node, meet here: with
-// |v + w x r|^2 K summed, M, J the mass and the smallest inertia, K = sum K_I, K^r = sum K_I r_I^2, c = |sum K_I r_I|,
-//   lambda = (a + b)/2 + sqrt((a - b)^2/4 + c^2/(M J)),  a = K/M,  b = K^r/J
-// bounds sum K_I |v + w x r_I|^2 / (M v^2 + w.Jw), so the main node gets the stiffnesses lambda M and lambda J.
+// drift. The stiffnesses of the nodes meet at the main node as one frequency (body_frequency.hpp).
 // `reference`: gyroscopic term from w, v' = v_M' + u + h_+/2 w' x u with u = w' x r; a body of at most two secondary nodes:
 // u = (R(h_+ w') r - r) / h_+ and h_- in place of h_+, as measured on a rotating two-node body (the radius then shrinks by
 // |w h|^2 / 2 per step).
@@ -19,6 +16,7 @@
 #include <cstddef>
 #include <string>
 
+#include "constraints/body_frequency.hpp"
 #include "constraints/body_tensor.hpp"
 #include "constraints/boundary_conditions.hpp"
 #include "constraints/rotation.hpp"
@@ -125,7 +123,8 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
 
     BodySums& sums = sums_[i];
     double k = 0.0, kr = 0.0;
-    Vec3 coupling{};
+    BodySprings springs;
+    if (conserving_) springs.add(Vec3{}, state.stiffness[main], state.rotational_stiffness[main]);
     for (const Index node : card.nodes) {
       const std::size_t s = at(node);
       const Vec3 r = state.x[s] - state.x[main];
@@ -133,7 +132,7 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
       sums.moment += state.m[s] + cross(r, state.f[s]);
       k += state.stiffness[s];
       kr += state.rotational_stiffness[s] + squared_norm(r) * state.stiffness[s];
-      coupling += state.stiffness[s] * r;
+      if (conserving_) springs.add(r, state.stiffness[s], state.rotational_stiffness[s]);
       state.stiffness[s] = state.rotational_stiffness[s] = 1e-20;
     }
     sums.force_impulse += h_minus * sums.force;
@@ -145,22 +144,15 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
 
     turn_axes(body.inertia, h_minus * state.w[main]);
     if (conserving_) {
-      couple_stiffness(state, main, squared_norm(coupling));
+      const double rate = largest_rate(springs, state.mass[main], body.inertia);
+      state.stiffness[main] = rate * state.mass[main];
+      state.rotational_stiffness[main] = rate * state.inertia[main];
       continue;
     }
     const Vec3 torque = body.own_moment + sums.moment;
     body.euler_alpha = angular_acceleration(body, torque, state.w[main], 0.0, conditions.held(card.main, true));
     state.m[main] = state.inertia[main] * body.euler_alpha;
   }
-}
-
-void RigidBodies::couple_stiffness(state::State& state, std::size_t main, double coupling_squared) const {
-  const double mass = state.mass[main], inertia = state.inertia[main];
-  if (mass <= 0.0 || inertia <= 0.0) return;
-  const double a = state.stiffness[main] / mass, b = state.rotational_stiffness[main] / inertia;
-  const double lambda = 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + coupling_squared / (mass * inertia));
-  state.stiffness[main] = lambda * mass;
-  state.rotational_stiffness[main] = lambda * inertia;
 }
 
 void RigidBodies::accelerate(state::State& state, const BoundaryConditions& conditions) {

@@ -48,20 +48,21 @@ class RigidBodies {
   [[nodiscard]] int revision() const { return revision_; }
 
   /// Step 11: f, m, stiffness and rotational stiffness of secondary nodes go to the main node; their own stiffness is reset to
-  /// 1e-20 (they do not control the step), their f is kept for output. In the standard profile the main node's two stiffnesses then
-  /// bound the body's frequency together. Turns the principal axes by w h_-. Reference profile: sets the main node's moment to
-  /// inertia times the angular acceleration of Euler's equations, so that alpha = m / inertia holds for it too.
+  /// 1e-20 (they do not control the step), their f is kept for output. In the standard profile the main node's two stiffnesses are
+  /// then its mass and inertia times the square of the body's largest frequency (body_frequency.hpp). Turns the principal axes by w h_-.
+  /// Reference profile: sets the main node's moment to inertia times the angular acceleration of Euler's equations, so that alpha = m /
+  /// inertia holds for it too.
   void gather(state::State& state, const BoundaryConditions& conditions);
 
   /// After step 16, standard profile: angular acceleration of the main nodes by Euler's equations, over the step that is now
   /// chosen. Rotational boundary conditions of the main node reduce the system to the free directions.
   void accelerate(state::State& state, const BoundaryConditions& conditions);
 
-  /// Step 13, mass scaling of a main node. The body gains mass at its main node.
+  /// Step 13, mass scaling of a main node: the body gains mass where its main node is ...
   void add_mass(Index body, double mass) { bodies_[static_cast<std::size_t>(body)].inertia.mass += mass; }
-  /// Raises the principal inertias that are smaller to `inertia`, those of the tensor as well as the main node's.
+  /// ... and its tensor, with the main node's inertia, grows by a factor.
   /// @return kinetic energy that this brings at the main node's angular velocity
-  double raise_inertia(Index body, double inertia, state::State& state);
+  double scale_inertia(Index body, double factor, state::State& state);
 
   /// Step 23: accelerations of secondary nodes such that they move rigidly with the main node in this step.
   /// @throws RunError when a body turns by more than one radian in a step
@@ -122,7 +123,6 @@ class RigidBodies {
   void turn_axes(Inertia& inertia, const Vec3& angle) const;
   [[nodiscard]] Vec3 angular_acceleration(const Body& body, const Vec3& torque, const Vec3& w, double h_bar,
                                           const BoundaryConditions::Held& held) const;
-  void couple_stiffness(state::State& state, std::size_t main, double coupling_squared) const;
   /// Kinetic energy of the body's nodes as free nodes, or as a body, from the half-step velocities.
   [[nodiscard]] double free_energy(std::size_t index, const state::State& state) const;
   [[nodiscard]] double rigid_energy(std::size_t index, const state::State& state) const;

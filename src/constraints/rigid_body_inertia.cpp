@@ -124,22 +124,15 @@ double RigidBodies::free_energy(std::size_t index, const state::State& state) co
 
 double RigidBodies::rigid_energy(std::size_t index, const state::State& state) const {
   const std::size_t main = at(model_->rigid_bodies[index].main);
-  return 0.5 * state.mass[main] * squared_norm(state.v[main]) +
-         0.5 * dot(state.w[main], times(bodies_[index].inertia, state.w[main]));
+  return 0.5 * state.mass[main] * squared_norm(state.v[main]) + 0.5 * dot(state.w[main], times(bodies_[index].inertia, state.w[main]));
 }
 
-double RigidBodies::raise_inertia(Index index, double inertia, state::State& state) {
+double RigidBodies::scale_inertia(Index index, double factor, state::State& state) {
   Body& body = bodies_[at(index)];
   const std::size_t main = at(model_->rigid_bodies[at(index)].main);
-  double energy = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    double& principal = body.inertia.principal[k];
-    const double more = std::max(inertia - principal, 0.0);
-    const double rate = dot(body.inertia.axes[k], state.w[main]);
-    energy += 0.5 * more * rate * rate;
-    principal += more;
-  }
-  state.inertia[main] = std::max(state.inertia[main], inertia);
+  const double energy = 0.5 * (factor - 1.0) * dot(state.w[main], times(body.inertia, state.w[main]));
+  for (double& principal : body.inertia.principal) principal *= factor;
+  state.inertia[main] *= factor;
   body.rotation_before += energy;  // brought from outside, not made by the rotation's numerics
   return energy;
 }

@@ -26,8 +26,8 @@ struct WallSums {
 /// gained (P p / M of a node, P the projection on its free directions; with the turn r x p of a body, RigidBodies::response),
 ///   V_w = V_p + A N sum m (v* - V_p).N / (1 + N.AN sum m)  over the nodes in contact; tied: V_p + A (1 + A sum m)^-1 sum m (v* - V_p),
 /// and the carrier gets the impulse sum J. The wall's plane keeps its normal, so its nodes press on it as if at its own node: the
-/// couple of their offsets along the plane is the guide's. Nodes that follow a rigid body are not tested while they do: the body would overwrite what
-/// the wall does to them. Reference profile: numerics.md 6.1.5.
+/// couple of their offsets along the plane is the guide's. Nodes that follow a rigid body are not tested while they do: the body would
+/// overwrite what the wall does to them. Reference profile: numerics.md 6.1.5.
 class RigidWalls {
  public:
   RigidWalls(const model::Model& model, const RigidBodies& bodies, const BoundaryConditions& conditions, const ImposedMotions& motions,

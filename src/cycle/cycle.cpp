@@ -39,7 +39,7 @@ void Cycle::advance(Sink& sink) {
     sections_.gather(state_, slots_);  // 11
     bodies_.gather(state_, boundary_);
     edited_work_ = take_over_edits();
-    walls_.add_reaction(state_);                                                  // 12
+    walls_.add_reaction(state_);                                          // 12
     const double scaled_now = time_step_->scale_masses(state_, bodies_);  // 13
     scaled_energy_ += scaled_now;
     ledger_.add(scaled_now);
@@ -47,7 +47,7 @@ void Cycle::advance(Sink& sink) {
     booked_work_ = loads_.book_work(state_);                                      // 15
     if (totals_wanted_) accelerate_again();                                       // 16
     bodies_.accelerate(state_, boundary_);
-    gravities_.apply(state_);                                                     // 17
+    gravities_.apply(state_);  // 17
     booked_work_ += gravities_.book_work(state_);
     boundary_.apply(state_);  // 18
     imposed_.apply(state_);   // 20

@@ -87,7 +87,7 @@ double TimeStep::scale_masses(state::State& s, constraints::RigidBodies& bodies)
     if ((all || free_rotation_[i] != 0) && s.inertia[i] > 0.0 && s.rotational_stiffness[i] * half_square > s.inertia[i]) {
       const double wanted_inertia = scaling_margin * s.rotational_stiffness[i] * half_square;
       if (body != no_index) {
-        energy += bodies.raise_inertia(body, wanted_inertia, s);
+        energy += bodies.scale_inertia(body, wanted_inertia / s.inertia[i], s);
       } else {
         energy += 0.5 * (wanted_inertia - s.inertia[i]) * squared_norm(s.w[i]);
         s.inertia[i] = wanted_inertia;

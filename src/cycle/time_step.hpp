@@ -61,8 +61,8 @@ class TimeStep {
   double nodal_scale_ = 0.9;
   double previous_step_ = 1e30;  ///< before the first cycle: no limit on growth
   double added_mass_ = 0.0;
-  std::vector<double> added_;      ///< #N, mass added so far, when masses may be scaled
-  Index scaled_node_ = no_index;   ///< first node that got mass or inertia in this cycle
+  std::vector<double> added_;     ///< #N, mass added so far, when masses may be scaled
+  Index scaled_node_ = no_index;  ///< first node that got mass or inertia in this cycle
 };
 
 }  // namespace abut::cycle
