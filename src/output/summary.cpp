@@ -85,7 +85,9 @@ void print_interfaces(std::string& out, const model::Model& model) {
   print(out, "Interfaces\n");
   for (const model::Interface& i : model.interfaces) {
     print(out, "  {:>8}  {}{}: {}\n", i.id, interface_type(i), quoted(i.title), joins_text(model, i));
-    print(out, "            stiffness scale {:.5g}, friction {:.5g}, gap {:.5g}", i.stfac, i.friction, i.gap);
+    const auto* t7 = std::get_if<model::InterfaceType7>(&i.type);
+    const std::string gap = t7 != nullptr && !t7->gap_given ? "from the thickness" : fmt::format("{:.5g}", i.gap);
+    print(out, "            stiffness scale {:.5g}, friction {:.5g}, gap {}", i.stfac, i.friction, gap);
     if (i.t_start > 0.0) print(out, ", from {:.5g}", i.t_start);
     if (i.t_stop < model::infinity) print(out, ", until {:.5g}", i.t_stop);
     print(out, "\n");
