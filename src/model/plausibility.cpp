@@ -1,4 +1,5 @@
-// What a deck may say, but rarely means: materials in other units than /BEGIN, nodes that a rigid wall cannot stop.
+// What a deck may say, but rarely means: materials in other units than /BEGIN, late bodies beside their centre of gravity, nodes that a
+// rigid wall cannot stop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "model/condition_fields.hpp"
+#include "model/measure.hpp"
 
 namespace abut::model {
 
@@ -21,7 +23,8 @@ double young_of(const Law& law) {
   return std::visit(Young{}, law);
 }
 
-/// A length that is wrong by a thousand makes the speed of sound wrong by a thousand: 5 m/s or 5000 km/s for steel.
+/// A note: data in a consistent set under another label give the right results. A length that is wrong by a thousand makes the speed
+/// of sound wrong by a thousand: 5 m/s or 5000 km/s for steel.
 constexpr double slowest = 10.0, fastest = 5e4;  // m/s; soft rubber 30, diamond 18000
 
 void speeds_of_sound(Context& c) {
@@ -32,11 +35,36 @@ void speeds_of_sound(Context& c) {
     if (!(material.density > 0.0) || !(young > 0.0)) continue;
     const double speed = std::sqrt(young / material.density) * metres_per_second;
     if (speed >= slowest && speed <= fastest) continue;
+    c.diagnostics->note("model.speed_of_sound", place_of(c, "MAT", material.id),
+                        fmt::format("the speed of sound in this material would be {:.3g} m/s; are its density and Young's modulus in the "
+                                    "units of /BEGIN ({}, {}, {})?",
+                                    speed, m.units.mass_name, m.units.length_name, m.units.time_name));
+  }
+}
+
+/// A body that a sensor switches on keeps its main node where it is and moves about it as about its centre of gravity.
+void centres_of_late_bodies(Context& c) {
+  const Model& m = *c.model;
+  const std::vector<double> masses = nodal_masses(m);
+  for (const RigidBody& b : m.rigid_bodies) {
+    if (b.sensor == no_index || b.main == no_index || b.nodes.empty()) continue;
+    double mass = 0.0, size = 0.0;
+    Vec3 moment{};
+    const Vec3 main = m.node_x[static_cast<std::size_t>(b.main)];
+    for (const Index n : b.nodes) {
+      const auto i = static_cast<std::size_t>(n);
+      mass += masses[i];
+      moment += masses[i] * (m.node_x[i] - main);
+      size = std::max(size, norm(m.node_x[i] - main));
+    }
+    mass += masses[static_cast<std::size_t>(b.main)];
+    if (mass <= 0.0 || norm(moment) <= 0.01 * size * mass) continue;
+    const Vec3 centre = main + moment / mass;
     c.diagnostics->warning(
-        "model.speed_of_sound", place_of(c, "MAT", material.id),
-        fmt::format("the speed of sound in this material would be {:.3g} m/s; are its density and Young's modulus in the "
-                    "units of /BEGIN ({}, {}, {})?",
-                    speed, m.units.mass_name, m.units.length_name, m.units.time_name));
+        "model.late_body", place_of(c, "RBODY", b.id),
+        fmt::format("a body that a sensor switches on keeps its main node where it is and turns about it, but the centre of "
+                    "gravity is {:.4g} away: it would start to turn and make energy; put node {} at {:.6g} {:.6g} {:.6g}",
+                    norm(moment) / mass, m.node_id[static_cast<std::size_t>(b.main)], centre.x, centre.y, centre.z));
   }
 }
 
@@ -74,6 +102,7 @@ void walls_and_bodies(Context& c) {
 
 void check_plausibility(Context& context) {
   speeds_of_sound(context);
+  centres_of_late_bodies(context);
   walls_and_bodies(context);
 }
 

@@ -28,7 +28,7 @@ const std::string millimetres = "                  Mg                  mm       
 TEST(Plausibility, SpeedOfSoundOfAMaterialInOtherUnits) {
   EXPECT_TRUE(build_text(plate(si, "2.1e11", "")).messages().empty());
   EXPECT_TRUE(build_text(plate(millimetres, "2.1e11", ""))
-                  .has("warning: /MAT/ELAST/3: the speed of sound in this material would be 5.19 m/s; are its density and Young's modulus "
+                  .has("note: /MAT/ELAST/3: the speed of sound in this material would be 5.19 m/s; are its density and Young's modulus "
                        "in the units of "
                        "/BEGIN (Mg, mm, s)?"));
   EXPECT_TRUE(build_text(plate(si, "1e6", "")).messages().empty());  // rubber, 11 m/s
@@ -49,6 +49,20 @@ TEST(Plausibility, NodesOfARigidBodyPassAWall) {
                   .has("warning: /RWALL/PLANE/7: the wall's initial velocity is not used: its node 2 follows a rigid body, give the "
                        "velocity to the body's "
                        "main node (/INIVEL)"));
+}
+
+TEST(Plausibility, ABodyThatASensorSwitchesOnBesideItsCentre) {
+  const auto deck = [](const char* node) {
+    const std::string text = plate(si, "2.1e11",
+                                   "/SENSOR/TIME/2\nlate\n" + testing::reals({"0.001"}) + "/GRNOD/NODE/1\nall\n" +
+                                       testing::ints({1, 2, 3, 4}) + "/RBODY/1\nbody\n" + testing::ints({5, 2, 0, 0}).substr(0, 40) +
+                                       "                   0" + testing::ints({1, 0, 0, 0}) + "\n\n\n");
+    return with_line(text, "/NODE", 5, testing::ints({5}).substr(0, 10) + node);
+  };
+  EXPECT_TRUE(build_text(deck("                 0.5                   0                   0"))
+                  .has("warning: /RBODY/1: a body that a sensor switches on keeps its main node where it is and turns about it, but the "
+                       "centre of gravity is 0.5 away: it would start to turn and make energy; put node 5 at 0.5 0.5 0"));
+  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0")).has("centre of gravity"));
 }
 
 TEST(Plausibility, TabsAreNamedWhereAFieldCannotBeRead) {
