@@ -88,10 +88,11 @@ void ImposedMotions::persist(state::Archive& a) {
   meter_.persist(a);
 }
 
-void ImposedMotions::add_imposed(Index node, BoundaryConditions::Held& held) const {
+void ImposedMotions::add_imposed(Index node, bool rotation, BoundaryConditions::Held& held) const {
   for (const Dof& dof : dofs_) {
     const model::ImposedMotion& motion = model_->imposed_motions[static_cast<std::size_t>(dof.motion)];
-    if (dof.node == node && dof.active && motion.direction < 3) held.add(axes_->axis(motion.skew, motion.direction));
+    const bool same_kind = (motion.direction >= 3) == rotation;
+    if (dof.node == node && dof.active && same_kind) held.add(axes_->axis(motion.skew, motion.direction % 3));
   }
 }
 

@@ -36,8 +36,8 @@ class ImposedMotions {
 
   void persist(state::Archive& a);
 
-  /// Adds the directions of translation of `node` that are imposed in this cycle to those that are held.
-  void add_imposed(Index node, BoundaryConditions::Held& held) const;
+  /// Adds the directions in which `node` is moved in this cycle to those that are held. @param rotation rotations, else translations
+  void add_imposed(Index node, bool rotation, BoundaryConditions::Held& held) const;
 
   /// Reaction of motion i on each of its nodes in this cycle, m (a - a_free) along the axis (force or moment).
   [[nodiscard]] double reaction(Index motion) const { return reaction_[static_cast<std::size_t>(motion)]; }

@@ -8,13 +8,12 @@
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "constraints/axes.hpp"
+#include "constraints/boundary_conditions.hpp"
 #include "core/profile.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
 namespace abut::constraints {
-
-class BoundaryConditions;
 
 /// Sums of one body: force and moment about the main node of the secondary nodes (without the main node's own), this cycle
 /// and integrated over time (times h_-); rotation: integral of the main node's angular velocity.
@@ -49,10 +48,21 @@ class RigidBodies {
   [[nodiscard]] int revision() const { return revision_; }
 
   /// Step 11: f, m, stiffness and rotational stiffness of secondary nodes go to the main node; their own stiffness is reset to
-  /// 1e-20 (they do not control the step), their f is kept for output. Turns the principal axes by w h_- and sets the main
-  /// node's moment to inertia times the angular acceleration of Euler's equations, so that alpha = m / inertia holds for it too.
-  /// Rotational boundary conditions of the main node reduce the system to the free directions.
+  /// 1e-20 (they do not control the step), their f is kept for output. In the standard profile the main node's two stiffnesses are
+  /// then its mass and inertia times the square of the body's largest frequency (body_frequency.hpp). Turns the principal axes by w h_-.
+  /// Reference profile: sets the main node's moment to inertia times the angular acceleration of Euler's equations, so that alpha = m /
+  /// inertia holds for it too.
   void gather(state::State& state, const BoundaryConditions& conditions);
+
+  /// After step 16, standard profile: angular acceleration of the main nodes by Euler's equations, over the step that is now
+  /// chosen. Rotational boundary conditions of the main node reduce the system to the free directions.
+  void accelerate(state::State& state, const BoundaryConditions& conditions);
+
+  /// Step 13, mass scaling of a main node: the body gains mass where its main node is ...
+  void add_mass(Index body, double mass) { bodies_[static_cast<std::size_t>(body)].inertia.mass += mass; }
+  /// ... and its tensor, with the main node's inertia, grows by a factor.
+  /// @return kinetic energy that this brings at the main node's angular velocity
+  double scale_inertia(Index body, double factor, state::State& state);
 
   /// Step 23: accelerations of secondary nodes such that they move rigidly with the main node in this step.
   /// @throws RunError when a body turns by more than one radian in a step
@@ -81,9 +91,18 @@ class RigidBodies {
   /// J b, J the body's inertia tensor at t^n.
   [[nodiscard]] Vec3 times_inertia(Index body, const Vec3& b) const;
 
-  /// Velocity gained by `node` along unit `direction` per unit impulse at the node along it: 1/m of a free node,
-  /// 1/M + (r x d) . J^-1 (r x d) for a node of an active body.
-  [[nodiscard]] double inverse_mass(const state::State& state, Index node, const Vec3& direction) const;
+  /// What carries a node `point`: itself, or the main node of its body; with the directions in which that cannot yield.
+  struct Carrier {
+    Index point = no_index, node = no_index, body = no_index;
+    BoundaryConditions::Held translation, rotation;
+  };
+  /// Velocity gained by the point from an impulse p on it, to first order in the angle per step: P p / M + (J^-1 (r x p)) x r,
+  /// r from carrier to point, P and J^-1 on the free directions.
+  [[nodiscard]] Vec3 response(const state::State& state, const Carrier& carrier, const Vec3& impulse) const;
+  /// Steps 18 to 23: velocity v^(n+1/2) of the point by the accelerations of its carrier.
+  [[nodiscard]] Vec3 next_velocity(const state::State& state, const Carrier& carrier) const;
+  /// Steps 18 to 23: accelerations of the carrier that an impulse on the point adds over h_bar.
+  void push(state::State& state, const Carrier& carrier, const Vec3& impulse) const;
 
  private:
   struct Body {
@@ -92,7 +111,7 @@ class RigidBodies {
     double own_mass = 0.0, own_inertia = 0.0;  ///< of the main node alone
     Vec3 own_moment;                           ///< moment on the main node alone, this cycle
     Vec3 entry_w;                              ///< angular velocity of the main node at gather
-    Vec3 euler_alpha;                          ///< angular acceleration that gather put into the moment
+    Vec3 euler_alpha;                          ///< angular acceleration of Euler's equations, this cycle
     double rotation_before = 0.0;              ///< rotational T* of the previous cycle plus its second halves, or 1/2 w.Jw when switched on
     double switch_work = 0.0;                  ///< kinetic energy gained (negative: lost) when the body was switched on or off
   };
@@ -102,8 +121,8 @@ class RigidBodies {
   void compute_inertia(std::size_t index, state::State& state, int icog, bool card_values);
   void claim(std::size_t index, bool on);
   void turn_axes(Inertia& inertia, const Vec3& angle) const;
-  [[nodiscard]] Vec3 angular_acceleration(const Inertia& inertia, const Vec3& torque, const Vec3& w, double h_bar,
-                                          const BoundaryConditions& conditions, Index main) const;
+  [[nodiscard]] Vec3 angular_acceleration(const Body& body, const Vec3& torque, const Vec3& w, double h_bar,
+                                          const BoundaryConditions::Held& held) const;
   /// Kinetic energy of the body's nodes as free nodes, or as a body, from the half-step velocities.
   [[nodiscard]] double free_energy(std::size_t index, const state::State& state) const;
   [[nodiscard]] double rigid_energy(std::size_t index, const state::State& state) const;

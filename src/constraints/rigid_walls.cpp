@@ -1,9 +1,8 @@
 #include "constraints/rigid_walls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-
-#include "constraints/rigid_bodies.hpp"
 
 namespace abut::constraints {
 
@@ -13,11 +12,22 @@ std::vector<Index> touched_nodes(const model::Model& model) {
   std::vector<Index> nodes;
   for (const model::RigidWall& w : model.rigid_walls) {
     nodes.insert(nodes.end(), w.nodes.begin(), w.nodes.end());
-    if (w.node != no_index) nodes.push_back(w.node);
+    if (w.node == no_index) continue;
+    nodes.push_back(w.node);
+    for (const model::RigidBody& body : model.rigid_bodies) {
+      if (std::find(body.nodes.begin(), body.nodes.end(), w.node) != body.nodes.end()) nodes.push_back(body.main);
+    }
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
+}
+
+/// The solution of (1 + s A) x = b, A symmetric and without negative eigenvalues, given by its columns.
+Vec3 solve(double s, const std::array<Vec3, 3>& a, const Vec3& b) {
+  const Vec3 c0 = Vec3{1, 0, 0} + s * a[0], c1 = Vec3{0, 1, 0} + s * a[1], c2 = Vec3{0, 0, 1} + s * a[2];
+  const double det = dot(c0, cross(c1, c2));
+  return Vec3{dot(b, cross(c1, c2)), dot(c0, cross(b, c2)), dot(c0, cross(c1, b))} / det;
 }
 
 }  // namespace
@@ -97,11 +107,28 @@ bool RigidWalls::reaches(const state::State& state, Index node, const Vec3& poin
   return dot(state.x[i] + state.times.h_plus * predicted - point, normal) <= 0.0;
 }
 
+RigidBodies::Carrier RigidWalls::carrier_of(Index node) const {
+  RigidBodies::Carrier carrier;
+  carrier.point = node;
+  carrier.body = bodies_->body_of(node) != no_index ? bodies_->body_of(node) : bodies_->main_of(node);
+  carrier.node = carrier.body == no_index ? node : model_->rigid_bodies[static_cast<std::size_t>(carrier.body)].main;
+  carrier.translation = conditions_->held(carrier.node, false);
+  motions_->add_imposed(carrier.node, false, carrier.translation);
+  carrier.rotation = conditions_->held(carrier.node, true);
+  motions_->add_imposed(carrier.node, true, carrier.rotation);
+  return carrier;
+}
+
 Vec3 RigidWalls::velocity_after_impact(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
-                                       const Vec3& point, const BoundaryConditions::Held& held) const {
-  const Vec3 n = card.normal, free_normal = held.free_part(n);
-  const double mass = state.mass[static_cast<std::size_t>(card.node)];
+                                       const Vec3& point, const RigidBodies::Carrier& carrier) const {
+  const Vec3 n = card.normal, normal_response = bodies_->response(state, carrier, n);
   const bool tied = card.slide == 1;
+  std::array<Vec3, 3> response{};
+  for (int k = 0; k < 3 && tied; ++k) {
+    Vec3 e{};
+    e[k] = 1.0;
+    response[static_cast<std::size_t>(k)] = bodies_->response(state, carrier, e);
+  }
   // The slower the wall gets, the fewer nodes still press on it: shrink the set until it stays. Ends: the set only shrinks.
   Vec3 velocity = before;
   Index count = -1;
@@ -110,7 +137,7 @@ Vec3 RigidWalls::velocity_after_impact(const Wall& wall, const state::State& sta
     Vec3 momentum{};
     Index pressing = 0;
     for (const Index node : wall.nodes) {
-      if (!reaches(state, node, point, n)) continue;
+      if (!tested(node) || !reaches(state, node, point, n)) continue;
       const auto i = static_cast<std::size_t>(node);
       const Vec3 predicted = state.v[i] + state.times.h_bar * state.a[i];
       if (dot(predicted - velocity, n) > 0.0) continue;
@@ -120,8 +147,8 @@ Vec3 RigidWalls::velocity_after_impact(const Wall& wall, const state::State& sta
     }
     if (pressing == count) return velocity;
     count = pressing;
-    velocity = tied ? before + held.free_part(momentum) / (mass + impacted)
-                    : before + dot(momentum, n) / (mass + dot(n, free_normal) * impacted) * free_normal;
+    velocity = tied ? before + bodies_->response(state, carrier, solve(impacted, response, momentum))
+                    : before + dot(momentum, n) / (1.0 + dot(n, normal_response) * impacted) * normal_response;
   }
 }
 
@@ -132,18 +159,19 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   const Vec3 n = card.normal;
 
   Vec3 wall_velocity{}, wall_point = card.point;
-  BoundaryConditions::Held held;
+  RigidBodies::Carrier carrier;
   bool yields = false;  // the impact changes the wall's own velocity in this cycle
   if (card.node != no_index) {
     const auto k = static_cast<std::size_t>(card.node);
-    wall_velocity = state.v[k] + hb * state.a[k];
-    wall_point = state.x[k] + h * wall_velocity;
-    yields = same_cycle_ && state.mass[k] > 0.0 && bodies_->body_of(card.node) == no_index;
-    if (yields) {
-      held = conditions_->held(card.node, false);
-      motions_->add_imposed(card.node, held);
-      wall_velocity = velocity_after_impact(wall, state, card, wall_velocity, wall_point, held);
+    if (same_cycle_) {
+      carrier = carrier_of(card.node);
+      wall_velocity = bodies_->next_velocity(state, carrier);
+      yields = state.mass[static_cast<std::size_t>(carrier.node)] > 0.0;
+    } else {
+      wall_velocity = state.v[k] + hb * state.a[k];
     }
+    wall_point = state.x[k] + h * wall_velocity;
+    if (yields) wall_velocity = velocity_after_impact(wall, state, card, wall_velocity, wall_point, carrier);
   }
   double alpha = 1.0;  // friction filter: weight of the new value
   if (card.filter_kind == 1) alpha = card.filter;
@@ -156,7 +184,7 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(wall.nodes[k]);
     const Vec3 predicted = state.v[i] + hb * state.a[i];
-    if (!reaches(state, wall.nodes[k], wall_point, n)) {
+    if (!tested(wall.nodes[k]) || !reaches(state, wall.nodes[k], wall_point, n)) {
       if (card.filter_kind != 0) wall.filtered[k] = Vec3{};
       continue;
     }
@@ -208,10 +236,7 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   sums.normal_impulse += normal_impulse;
   sums.tangential_impulse += tangential_impulse;
   wall.reaction = (normal_impulse + tangential_impulse) / hb;
-  if (yields) {
-    const auto k = static_cast<std::size_t>(card.node);
-    state.a[k] += held.free_part(wall.reaction) / state.mass[k];
-  }
+  if (yields) bodies_->push(state, carrier, normal_impulse + tangential_impulse);
   wall.impacted_mass = impacted;
 }
 

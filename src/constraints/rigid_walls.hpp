@@ -6,6 +6,7 @@
 
 #include "constraints/boundary_conditions.hpp"
 #include "constraints/imposed_motions.hpp"
+#include "constraints/rigid_bodies.hpp"
 #include "constraints/work_meter.hpp"
 #include "core/profile.hpp"
 #include "model/model.hpp"
@@ -13,19 +14,20 @@
 
 namespace abut::constraints {
 
-class RigidBodies;
-
 /// What a wall received from the structure. Forces of this cycle (impulse / h_bar), impulses accumulated since t = 0;
 /// "normal" points against the wall's normal.
 struct WallSums {
   Vec3 normal_force, tangential_force, normal_impulse, tangential_impulse;
 };
 
-/// A moving wall is as heavy as its main node (the whole rigid body, if it is the main node of one). In the standard profile the
-/// impact is plastic and momentum is exchanged in the same cycle, along those directions in which the main node is neither held
-/// nor moved by an imposed motion: with P the projection on the free directions, N the normal, M the main node's mass,
-///   V_w = V_p + P N sum m (v* - V_p).N / (M + N.PN sum m)   over the nodes in contact (tied: V_p + P sum m (v* - V_p) / (M + sum m)),
-/// and the main node gets a += P sum J / (M h_bar). Reference profile: numerics.md 6.1.5.
+/// A moving wall is as heavy as what carries it: its main node, or the rigid body to which that node belongs. In the standard
+/// profile the impact is plastic and momentum is exchanged in the same cycle, along those directions in which the carrier is neither
+/// held nor moved by an imposed motion. With N the normal and A the response of the wall's node to an impulse on it, A p = velocity
+/// gained (P p / M of a node, P the projection on its free directions; with the turn r x p of a body, RigidBodies::response),
+///   V_w = V_p + A N sum m (v* - V_p).N / (1 + N.AN sum m)  over the nodes in contact; tied: V_p + A (1 + A sum m)^-1 sum m (v* - V_p),
+/// and the carrier gets the impulse sum J. The wall's plane keeps its normal, so its nodes press on it as if at its own node: the
+/// couple of their offsets along the plane is the guide's. Nodes that follow a rigid body are not tested while they do: the body would
+/// overwrite what the wall does to them. Reference profile: numerics.md 6.1.5.
 class RigidWalls {
  public:
   RigidWalls(const model::Model& model, const RigidBodies& bodies, const BoundaryConditions& conditions, const ImposedMotions& motions,
@@ -61,8 +63,10 @@ class RigidWalls {
     Index count = 0;             ///< nodes in contact in this cycle
   };
   void apply_wall(std::size_t index, state::State& state);
+  [[nodiscard]] RigidBodies::Carrier carrier_of(Index node) const;
   [[nodiscard]] Vec3 velocity_after_impact(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
-                                           const Vec3& point, const BoundaryConditions::Held& held) const;
+                                           const Vec3& point, const RigidBodies::Carrier& carrier) const;
+  [[nodiscard]] bool tested(Index node) const { return !same_cycle_ || bodies_->body_of(node) == no_index; }
   [[nodiscard]] bool reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const;
 
   const model::Model* model_;

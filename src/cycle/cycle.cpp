@@ -39,12 +39,15 @@ void Cycle::advance(Sink& sink) {
     sections_.gather(state_, slots_);  // 11
     bodies_.gather(state_, boundary_);
     edited_work_ = take_over_edits();
-    walls_.add_reaction(state_);                                                  // 12
-    scaled_energy_ += time_step_->scale_masses(state_);                           // 13
+    walls_.add_reaction(state_);                                          // 12
+    const double scaled_now = time_step_->scale_masses(state_, bodies_);  // 13
+    scaled_energy_ += scaled_now;
+    ledger_.add(scaled_now);
     controller_ = time_step_->choose(state_, limits, contact_stiffness_, pool_);  // 14
     booked_work_ = loads_.book_work(state_);                                      // 15
     if (totals_wanted_) accelerate_again();                                       // 16
-    gravities_.apply(state_);                                                     // 17
+    bodies_.accelerate(state_, boundary_);
+    gravities_.apply(state_);  // 17
     booked_work_ += gravities_.book_work(state_);
     boundary_.apply(state_);  // 18
     imposed_.apply(state_);   // 20

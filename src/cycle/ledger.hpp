@@ -34,6 +34,9 @@ class Ledger {
   /// The start has this much more: velocities that were changed before the first cycle.
   void raise_start(double kinetic) { start_ += kinetic; }
 
+  /// Energy that this cycle brought with new mass.
+  void add(double work) { works_ += work; }
+
   /// Closes the cycle after sum(). @param kinetic T* of the structure. @param constraint_work bookings of loads and
   /// constraints. @return T* minus its start minus all works so far: zero to rounding
   double close(double kinetic, double constraint_work);

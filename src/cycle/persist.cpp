@@ -39,9 +39,9 @@ void persist_result(state::Archive& a, InterfaceResult& r) {
 void TimeStep::persist(state::Archive& a) {
   a(previous_step_);
   a(added_mass_);
-  a.growing(first_mass_);
-  if (!first_mass_.empty() && first_mass_.size() != static_cast<std::size_t>(model_.node_count())) {
-    throw state::ArchiveError("the checkpoint does not fit the model (first masses)");
+  a.growing(added_);
+  if (!added_.empty() && added_.size() != static_cast<std::size_t>(model_.node_count())) {
+    throw state::ArchiveError("the checkpoint does not fit the model (added masses)");
   }
 }
 

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "constraints/rigid_bodies.hpp"
 #include "parallel/ordered_sum.hpp"
 
 namespace abut::cycle {
 
 namespace {
-/// Numerics.md 2.3: added mass brings the node a hair above the wanted step.
+/// Numerics.md 2.3: added mass brings the node a hair above the wanted step, so that rounding does not ask for more in the next cycle.
+/// The cycle that adds mass takes the wanted step itself.
 constexpr double scaling_margin = 1.00001;
 }  // namespace
 
@@ -61,24 +63,36 @@ TimeStep::Smallest TimeStep::nodal(const state::State& s, bool rotations, parall
   });
 }
 
-double TimeStep::scale_masses(state::State& s) {
+double TimeStep::scale_masses(state::State& s, constraints::RigidBodies& bodies) {
+  scaled_node_ = no_index;
   if (scaled_.empty() || model_.controls.nodal_minimum <= 0.0) return 0.0;
-  if (first_mass_.empty()) first_mass_.assign(s.mass.begin(), s.mass.end());
+  if (added_.empty()) added_.assign(s.mass.size(), 0.0);
   const double wanted = model_.controls.nodal_minimum / nodal_scale_;
   const double half_square = 0.5 * wanted * wanted;
+  const bool all = profile_.system_step == Profile::SystemStep::reference;
   double energy = 0.0;
   for (std::size_t i = 0; i < s.mass.size(); ++i) {
     if (scaled_[i] == 0) continue;
-    if (s.mass[i] > 0.0 && s.stiffness[i] * half_square > s.mass[i]) {
+    const auto node = static_cast<Index>(i);
+    const Index body = bodies.main_of(node);
+    if ((all || free_translation_[i] != 0) && s.mass[i] > 0.0 && s.stiffness[i] * half_square > s.mass[i]) {
       const double more = scaling_margin * s.stiffness[i] * half_square - s.mass[i];
       s.mass[i] += more;
+      if (body != no_index) bodies.add_mass(body, more);
+      added_[i] += more;
       added_mass_ += more;
       energy += 0.5 * more * squared_norm(s.v[i]);
+      if (scaled_node_ == no_index) scaled_node_ = node;
     }
-    if (s.inertia[i] > 0.0 && s.rotational_stiffness[i] * half_square > s.inertia[i]) {
-      const double more = scaling_margin * s.rotational_stiffness[i] * half_square - s.inertia[i];
-      s.inertia[i] += more;
-      energy += 0.5 * more * squared_norm(s.w[i]);
+    if ((all || free_rotation_[i] != 0) && s.inertia[i] > 0.0 && s.rotational_stiffness[i] * half_square > s.inertia[i]) {
+      const double wanted_inertia = scaling_margin * s.rotational_stiffness[i] * half_square;
+      if (body != no_index) {
+        energy += bodies.scale_inertia(body, wanted_inertia / s.inertia[i], s);
+      } else {
+        energy += 0.5 * (wanted_inertia - s.inertia[i]) * squared_norm(s.w[i]);
+        s.inertia[i] = wanted_inertia;
+      }
+      if (scaled_node_ == no_index) scaled_node_ = node;
     }
   }
   return energy;
@@ -86,8 +100,9 @@ double TimeStep::scale_masses(state::State& s) {
 
 Index TimeStep::first_beyond(double ratio, const state::State& s) const {
   if (ratio <= 0.0) return no_index;
-  for (std::size_t i = 0; i < first_mass_.size(); ++i) {
-    if (s.mass[i] > (1.0 + ratio) * first_mass_[i] && first_mass_[i] > 0.0) return static_cast<Index>(i);
+  for (std::size_t i = 0; i < added_.size(); ++i) {
+    const double first = s.mass[i] - added_[i];
+    if (first > 0.0 && added_[i] > ratio * first) return static_cast<Index>(i);
   }
   return no_index;
 }
@@ -114,6 +129,9 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
       take(nodal_scale_ * std::sqrt(smallest.square),
            {contact ? StepController::Kind::contact_node : StepController::Kind::node, model_.node_id[i]});
     }
+  }
+  if (scaled_node_ != no_index) {
+    take(control.nodal_minimum, {StepController::Kind::node, model_.node_id[static_cast<std::size_t>(scaled_node_)]});
   }
   if (!reference || two_sided_) take(limits.interface_step, limits.interface_controller);
   if (control.dt_max < step) take(control.dt_max, {StepController::Kind::fixed, 0});

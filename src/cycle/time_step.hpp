@@ -12,6 +12,10 @@
 #include "parallel/thread_pool.hpp"
 #include "state/state.hpp"
 
+namespace abut::constraints {
+class RigidBodies;
+}
+
 namespace abut::cycle {
 
 /// What limits the coming step, collected during the cycle.
@@ -28,8 +32,10 @@ class TimeStep {
   TimeStep(const model::Model& model, const Profile& profile, bool has_two_sided_interface, std::vector<std::uint8_t> free_translation,
            std::vector<std::uint8_t> free_rotation);
 
-  /// Adds mass where /DT/NODA/CST asks for it (2.3). @return energy that the added mass brings, m v.v/2
-  double scale_masses(state::State& s);
+  /// Adds mass where /DT/NODA/CST asks for it (2.3): m <- 1.00001 K/2 (dt_min/s)^2, inertia likewise; of a rigid body to the body and
+  /// its tensor. Clamped nodes get none (reference profile: they do). The step of a cycle that adds mass is at most dt_min.
+  /// @return energy that the added mass brings, m v.v/2
+  double scale_masses(state::State& s, constraints::RigidBodies& bodies);
 
   /// Chooses h_plus and h_bar of s.times; says who controls.
   /// @param contact_stiffness  #N: share of s.stiffness that comes from interfaces
@@ -55,7 +61,8 @@ class TimeStep {
   double nodal_scale_ = 0.9;
   double previous_step_ = 1e30;  ///< before the first cycle: no limit on growth
   double added_mass_ = 0.0;
-  std::vector<double> first_mass_;  ///< #N, kept when masses may be scaled
+  std::vector<double> added_;     ///< #N, mass added so far, when masses may be scaled
+  Index scaled_node_ = no_index;  ///< first node that got mass or inertia in this cycle
 };
 
 }  // namespace abut::cycle

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "init/contact_options.hpp"
+#include "init/contact_setup.hpp"
 #include "init/contact_stiffness.hpp"
 
 namespace abut::init {
@@ -167,6 +169,31 @@ void kinematic_findings(const model::Model& model, const HeldDirections& held, s
          "They move with the body, whose mass then counts for the contact; the interface time step is that of the body.");
 }
 
+/// TYPE7 whose card leaves initial penetrations alone (Inacti 0).
+void penetration_findings(const model::Model& model, std::size_t index, std::span<const Vec3> x, std::vector<contact::Finding>& out) {
+  const model::Interface& card = model.interfaces[index];
+  const auto* t7 = std::get_if<model::InterfaceType7>(&card.type);
+  if (t7 == nullptr || t7->inacti != 0) return;
+  const std::vector<contact::Projection> moves = penetrations(model, static_cast<Index>(index), x);
+  if (moves.empty()) return;
+  contact::Finding f;
+  for (const contact::Projection& m : moves) {
+    f.nodes.push_back(m.node);
+    f.measure = std::max(f.measure, norm(m.by));
+  }
+  std::sort(f.nodes.begin(), f.nodes.end());
+  const double gap = both_sides_options(model, card, Profile::standard(), x).gap;
+  f.severity = t7->igap == 0 && f.measure <= 0.1 * gap ? contact::Severity::note : contact::Severity::warning;
+  f.code = "contact.initial_penetration";
+  f.measure_name = "largest penetration";
+  f.what = fmt::format(
+      "{} within the gap{}, up to {:.5g} deep", f.nodes.size() == 1 ? "1 node starts" : fmt::format("{} nodes start", f.nodes.size()),
+      t7->gap_given || t7->igap != 0 ? "" : fmt::format(" of {:.5g} that follows from the thickness (Gapmin is not given)", gap),
+      f.measure);
+  f.advice = "They start with a force: give a Gapmin below the distance of the meshes, or Inacti 5 to begin with the gap that is there.";
+  out.push_back(std::move(f));
+}
+
 Severity severity_of(contact::Severity s) {
   return s == contact::Severity::error ? Severity::error : (s == contact::Severity::warning ? Severity::warning : Severity::note);
 }
@@ -219,7 +246,8 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
     in_body[at(b.main)] = 1;
     for (const Index n : b.nodes) in_body[at(n)] = 1;
   }
-  for (const model::Interface& card : model.interfaces) {
+  for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+    const model::Interface& card = model.interfaces[i];
     const InspectedInterface inspected(model, card, x);
     contact::InspectionInput input = inspected.input(x);
     input.v = state.v;
@@ -228,6 +256,7 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
     std::vector<contact::Finding> findings = contact::inspect(input);
     const std::vector<ContactNode> nodes = contact_nodes(input, x);
     kinematic_findings(model, held, nodes, x, in_body, findings);
+    penetration_findings(model, i, x, findings);
     for (contact::Finding& f : findings) {
       ContactFinding c;
       c.interface_id = card.id;

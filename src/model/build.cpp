@@ -26,6 +26,7 @@ Model build(const deck::DeckPair& deck, Diagnostics& diagnostics, int run) {
                         "no Engine deck NAME_0001.rad beside it: the model can be checked but not run");
   }
   validate(c);
+  if (c.diagnostics->error_count() == 0) check_plausibility(c);
   return model;
 }
 

@@ -141,7 +141,8 @@ class HistoryReader {
         variables.insert(expanded.begin(), expanded.end());
         if (expanded.empty()) {
           r.warning("model.unknown_variable", columns, "var",
-                    fmt::format("'{}' is not a variable of /TH/{}; it is left out (DEF asks for the usual ones)", name, th_word(kind)));
+                    fmt::format("'{}' is not a variable of /TH/{}; it is left out ({})", name, th_word(kind),
+                                name.find(' ') == std::string::npos ? "DEF asks for the usual ones" : "each name has a field of its own"));
         }
       }
     }

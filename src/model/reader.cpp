@@ -112,6 +112,12 @@ std::string_view BlockReader::text(deck::Columns c, std::string_view field) {
   return text(c);
 }
 
+std::string BlockReader::not_a(std::string_view what, std::string_view text) const {
+  const bool tab = card_ != nullptr && card_->text.find('\t') != std::string_view::npos;
+  return fmt::format("{} is not {}{}", quoted(text), what,
+                     tab ? "; the line has tabs, and a tab counts as one column: fields need blanks up to their columns" : "");
+}
+
 double BlockReader::real(deck::Columns c, std::string_view field, Dimension d) {
   const std::string_view s = text(c, field);
   if (s.empty()) return 0.0;
@@ -119,7 +125,7 @@ double BlockReader::real(deck::Columns c, std::string_view field, Dimension d) {
   if (!value) {
     error("deck.bad_real", c, field,
           s.front() == '&' ? fmt::format("{} refers to a /PARAMETER, which is not supported: write the number", quoted(s))
-                           : fmt::format("{} is not a real number", quoted(s)));
+                           : not_a("a real number", s));
     return 0.0;
   }
   const double converted = *value * context_->factor(d, unit_id_);
@@ -133,7 +139,7 @@ double BlockReader::real(deck::Columns c, std::string_view field, Dimension d) {
 Id BlockReader::integer(deck::Columns c, std::string_view field) {
   const std::string_view s = text(c, field);
   const std::optional<Id> value = deck::parse_integer(s);
-  if (!value) error("deck.bad_integer", c, field, fmt::format("{} is not an integer", quoted(s)));
+  if (!value) error("deck.bad_integer", c, field, not_a("an integer", s));
   return value.value_or(0);
 }
 
@@ -157,7 +163,7 @@ std::vector<Id> BlockReader::id_list(std::string_view field) {
         next_ = block_->cards.size();
         return ids;
       }
-      if (!id) error("deck.bad_integer", c, field, fmt::format("{} is not an integer", quoted(s)));
+      if (!id) error("deck.bad_integer", c, field, not_a("an integer", s));
       if (id && *id != 0) ids.push_back(*id);
     }
   }

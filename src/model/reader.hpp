@@ -115,6 +115,9 @@ class BlockReader {
   std::string title_;
   bool titled_ = false;  ///< the first card is the title
   std::size_t next_ = 0;
+  /// "'1 2' is not an integer", with a word on tabs where the line has some.
+  [[nodiscard]] std::string not_a(std::string_view what, std::string_view text) const;
+
   const deck::Card* card_ = nullptr;
 };
 
@@ -139,6 +142,7 @@ inline void read_entities(Context& c) {
 void read_engine(Context& c, const deck::Deck& engine, int run);  ///< Engine deck of a run -> changes of Model::controls
 void check_keywords(Context& c);  ///< keywords nobody took: refused when they can change physics, else listed as skipped
 [[nodiscard]] bool is_refused(const deck::Block& block);  ///< check_keywords refuses this block: readers pass over it
+void check_plausibility(Context& c);                      ///< what a deck may say but rarely means (units, walls and rigid bodies)
 void validate(Context& c);  ///< what can only be judged with everything read (shared nodes, zero areas, masses ...)
 
 }  // namespace abut::model

@@ -15,6 +15,7 @@ namespace abut::output {
 namespace {
 
 constexpr int lines_per_header = 50;
+constexpr double large_mass_error = 0.05;  ///< share that the listing remarks on
 constexpr std::string_view columns =
     "\n     CYCLE          TIME     TIME-STEP  BY              ID   ERROR%    I-ENERGY  K-ENERGY-T  K-ENERGY-R  CONT-ENERGY  "
     "CONT-MADE    EXT-WORK    MASS-ERR\n";
@@ -97,6 +98,11 @@ void Listing::end(const cycle::Outcome& outcome) {
   text +=
       fmt::format("Worst       energy error {:.3f} % at time {:.6g}, contact made {:.4g} at time {:.6g}\n",
                   100.0 * record_.worst_error().value, record_.worst_error().time, record_.worst_made().value, record_.worst_made().time);
+  if (b.added_mass > 0.0) {
+    text +=
+        fmt::format("Added mass  {:.6g} by /DT/NODA/CST, {:.3g} % of the mass without it{}\n", b.added_mass, 100.0 * mass_error(b),
+                    mass_error(b) > large_mass_error ? ": much for a run in which inertia matters; a smaller minimum step adds less" : "");
+  }
   if (!record_.hashes().empty()) {
     const RunRecord::Hash& last = record_.hashes().back();
     text += fmt::format("State hash  {:016x} at cycle {}\n", last.value, last.cycle);

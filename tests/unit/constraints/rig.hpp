@@ -61,6 +61,7 @@ struct Rig {
   RigidWalls walls{model, bodies, conditions, motions, profile};
   std::function<void(state::State&)> forces = [](state::State&) {};              ///< sets f_contact (and m_internal, subtracted)
   std::function<void(const state::State&)> output = [](const state::State&) {};  ///< step 26
+  std::function<void(state::State&)> scaling = [](state::State&) {};             ///< step 13
   ForceWork force_work;
 
   double external = 0.0;  ///< reference bookings of loads, gravity, imposed motion and walls
@@ -98,6 +99,7 @@ struct Rig {
     }
     bodies.gather(s, conditions);
     walls.add_reaction(s);
+    scaling(s);
     t.h_plus = h;
     t.h_bar_old = t.h_bar;
     t.h_bar = 0.5 * (t.h_minus + t.h_plus);
@@ -106,6 +108,7 @@ struct Rig {
       s.a[i] = s.mass[i] > 0.0 ? s.f[i] / s.mass[i] : Vec3{};
       s.alpha[i] = s.inertia[i] > 0.0 ? s.m[i] / s.inertia[i] : Vec3{};
     }
+    bodies.accelerate(s, conditions);
     gravities.apply(s);
     external += gravities.book_work(s);
     conditions.apply(s);

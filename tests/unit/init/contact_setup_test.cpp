@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "init/contact_inspection.hpp"
+
 namespace abut::init {
 namespace {
 
@@ -125,6 +127,32 @@ TEST(Type7Setup, gap_rules) {
 }
 
 // With a sensor the interface is born when it fires; Tstart and Tstop do not count.
+// Gapmin left blank is the mean thickness of the surface, 0.03: nodes that start at 0.02 are 0.01 within it, and the inspection says
+// so. Inacti 5 begins with the gap that is there, and a given gap below the distance leaves nothing to say.
+TEST(Type7Setup, initial_penetrations_are_found) {
+  const auto found = [](double gap, int inacti) {
+    Plates p(0.02);
+    p.t7.gap_given = gap > 0.0;
+    p.card.gap = gap;
+    p.t7.inacti = inacti;
+    p.add();
+    for (const ContactFinding& c : inspect_contacts(p.m, {})) {
+      if (c.finding.code == "contact.initial_penetration") return c;
+    }
+    return ContactFinding{};
+  };
+  const ContactFinding blank = found(0.0, 0);
+  EXPECT_EQ(blank.finding.severity, contact::Severity::warning);
+  EXPECT_EQ(blank.nodes, (std::vector<Id>{7, 8, 9, 10}));
+  EXPECT_NEAR(blank.finding.measure, 0.01, 1e-9);  // nodes are moved a hair beyond the gap
+  EXPECT_EQ(blank.finding.what,
+            "4 nodes start within the gap of 0.03 that follows from the thickness (Gapmin is not given), up to 0.01 deep");
+  EXPECT_EQ(found(0.021, 0).finding.severity, contact::Severity::note);
+  EXPECT_EQ(found(0.021, 0).finding.what, "4 nodes start within the gap, up to 0.001 deep");
+  EXPECT_TRUE(found(0.0, 5).nodes.empty());
+  EXPECT_TRUE(found(0.019, 0).nodes.empty());
+}
+
 TEST(Type7Setup, sensor_is_the_birth) {
   Plates p(0.005);
   p.m.sensors.push_back({1, 2.0, 3.0});

@@ -1,0 +1,81 @@
+// What a deck may say but rarely means: each with its message, and silence where it is meant.
+#include <gtest/gtest.h>
+
+#include "unit/model/deck_text.hpp"
+#include "unit/model/fixture.hpp"
+
+namespace abut::model {
+namespace {
+
+using namespace base_deck;
+
+/// A 1 x 1 shell of steel; `units` a line of /BEGIN, `more` further blocks.
+std::string plate(const std::string& units, const std::string& young, const std::string& more) {
+  std::string deck = "/BEGIN\nplate\n      2022         0\n" + units + units + "/NODE\n";
+  int id = 0;
+  for (const char* xyz : {"0 0", "1 0", "1 1", "0 1", "5 5"}) {
+    const std::string both(xyz);
+    deck += testing::ints({++id}).substr(0, 10) + testing::reals({both.substr(0, 1), both.substr(2), "0"});
+  }
+  deck += "/MAT/ELAST/3\nsteel\n" + testing::reals({"7800"}) + testing::reals({young, "0.3"});
+  deck += "/PROP/SHELL/1\nplate\n\n\n         0         0                 .01\n/PART/1\na\n         1         3\n/SHELL/1\n";
+  return deck + testing::ints({1, 1, 2, 3, 4}) + more + "/END\n";
+}
+
+const std::string si = "                  kg                   m                   s\n";
+const std::string millimetres = "                  Mg                  mm                   s\n";
+
+TEST(Plausibility, SpeedOfSoundOfAMaterialInOtherUnits) {
+  EXPECT_TRUE(build_text(plate(si, "2.1e11", "")).messages().empty());
+  EXPECT_TRUE(build_text(plate(millimetres, "2.1e11", ""))
+                  .has("note: /MAT/ELAST/3: the speed of sound in this material would be 5.19 m/s; are its density and Young's modulus "
+                       "in the units of "
+                       "/BEGIN (Mg, mm, s)?"));
+  EXPECT_TRUE(build_text(plate(si, "1e6", "")).messages().empty());  // rubber, 11 m/s
+}
+
+TEST(Plausibility, NodesOfARigidBodyPassAWall) {
+  const std::string body = "/GRNOD/NODE/1\nall\n" + testing::ints({1, 2, 3, 4}) + "/RBODY/1\nbody\n" +
+                           testing::ints({5, 0, 0, 0}).substr(0, 40) + "                   0" + testing::ints({1, 0, 0, 0}) + "\n\n\n";
+  const auto wall = [](const std::string& node) {
+    return "/RWALL/PLANE/7\nwall\n" + testing::field(node, 10) + testing::ints({0, 1, 0}) + testing::reals({"0", "0", "0", "0"}) +
+           (node == "0" ? testing::reals({"0", "0", "-1"}) : testing::reals({"2", "0", "0", "3"})) + testing::reals({"0", "0", "1"});
+  };
+  EXPECT_TRUE(build_text(plate(si, "2.1e11", body + wall("0")))
+                  .has("note: /RWALL/PLANE/7: 4 nodes follow a rigid body (the first is node 1, of rigid body 1) and are not stopped by "
+                       "this wall: of a body "
+                       "it stops the main node only; use an interface (/INTER/TYPE7) where the body's faces are to be held"));
+  EXPECT_TRUE(build_text(plate(si, "2.1e11", body + wall("2")))
+                  .has("warning: /RWALL/PLANE/7: the wall's initial velocity is not used: its node 2 follows a rigid body, give the "
+                       "velocity to the body's "
+                       "main node (/INIVEL)"));
+}
+
+TEST(Plausibility, ABodyThatASensorSwitchesOnBesideItsCentre) {
+  const auto deck = [](const char* node) {
+    const std::string text = plate(si, "2.1e11",
+                                   "/SENSOR/TIME/2\nlate\n" + testing::reals({"0.001"}) + "/GRNOD/NODE/1\nall\n" +
+                                       testing::ints({1, 2, 3, 4}) + "/RBODY/1\nbody\n" + testing::ints({5, 2, 0, 0}).substr(0, 40) +
+                                       "                   0" + testing::ints({1, 0, 0, 0}) + "\n\n\n");
+    return with_line(text, "/NODE", 5, testing::ints({5}).substr(0, 10) + node);
+  };
+  EXPECT_TRUE(build_text(deck("                 0.5                   0                   0"))
+                  .has("warning: /RBODY/1: a body that a sensor switches on keeps its main node where it is and turns about it, but the "
+                       "centre of gravity is 0.5 away: it would start to turn and make energy; put node 5 at 0.5 0.5 0"));
+  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0")).has("centre of gravity"));
+}
+
+TEST(Plausibility, TabsAreNamedWhereAFieldCannotBeRead) {
+  const std::string deck = with_line(plate(si, "2.1e11", ""), "/NODE", 2, "2\t1\t0\t0");
+  EXPECT_TRUE(build_text(deck).has(
+      "'2 1 0 0' is not an integer; the line has tabs, and a tab counts as one column: fields need blanks up to their columns"));
+}
+
+TEST(Plausibility, NamesOfAHistoryThatShareAField) {
+  const std::string history = "/TH/NODE/1\nn\nDEF       VR  WX\n" + testing::ints({1});
+  EXPECT_TRUE(build_text(plate(si, "2.1e11", history))
+                  .has("'VR  WX' is not a variable of /TH/NODE; it is left out (each name has a field of its own)"));
+}
+
+}  // namespace
+}  // namespace abut::model
