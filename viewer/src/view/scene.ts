@@ -16,12 +16,31 @@ import {
 } from "three";
 import { TOP, type ChunkInfo } from "../data/chunk";
 import type { Range } from "../data/fields";
+import { cluster, coarseTriangles, type Clusters } from "./coarse";
 import { makeArrows, type ArrowGroup } from "./arrows";
 import type { ColorMap } from "./colormap";
 import { FaceMaterials, displacement, plainMaterial, type Coloring } from "./materials";
-import { assignVertices, edgeLines, faceNormals, featureEdges, findEdges, triangles, type Edges, type Faces, type Vertices } from "./mesh";
+import {
+  assignVertices,
+  edgeLines,
+  faceNormals,
+  featureEdges,
+  findEdges,
+  nodesOf,
+  triangles,
+  type Edges,
+  type Faces,
+  type Vertices,
+} from "./mesh";
 import { pick, type Hit, type Vec } from "./pick";
 import { Rig } from "./rig";
+
+/** Milliseconds: a picture that takes longer is drawn coarser while it moves. */
+const SLOW = 25;
+/** Milliseconds without a change after which the picture rests. */
+const REST = 160;
+/** Pixels: cells that are larger are not drawn as one. */
+const VISIBLE = 7;
 
 export class View {
   readonly renderer: WebGLRenderer;
@@ -31,6 +50,7 @@ export class View {
   private readonly scene = new Scene();
   private readonly frameAttribute: BufferAttribute;
   private readonly faceGeometry = new BufferGeometry();
+  private readonly coarseGeometry = new BufferGeometry();
   private readonly outlineGeometry = new BufferGeometry();
   private readonly meshGeometry = new BufferGeometry();
   private readonly markFaces = new BufferGeometry();
@@ -39,7 +59,7 @@ export class View {
   private readonly selectedNode = new BufferGeometry();
   private readonly arrows: LineSegments[] = [];
   private readonly objects: Record<
-    "faces" | "outline" | "mesh" | "markFaces" | "markNodes" | "selectedFace" | "selectedNode",
+    "faces" | "coarse" | "outline" | "mesh" | "markFaces" | "markNodes" | "selectedFace" | "selectedNode",
     Mesh | LineSegments | Points
   >;
   private readonly displacement = displacement(1);
@@ -52,9 +72,14 @@ export class View {
   private displacementInfo: ChunkInfo | undefined;
   private moved: Float32Array | undefined;
   private meshShown = false;
+  private clusters: Clusters | undefined;
+  private moving = false;
+  private rest: ReturnType<typeof setTimeout> | undefined;
   /** Called after each picture. */
   onDraw: (() => void) | undefined;
   drawCount = 0;
+  /** Whether the last picture is one of those for while it moves. */
+  drawnCoarse = false;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -73,19 +98,20 @@ export class View {
     this.renderer.setPixelRatio(large ? 1 : Math.min(2, window.devicePixelRatio));
 
     const count = this.vertices.node.length;
-    const base = new Float32Array(3 * count);
+    const rest = new Float32Array(3 * count);
     const colors = new Uint8Array(4 * count);
     for (let v = 0; v < count; v++) {
       const n = this.vertices.node[v]!;
-      for (let c = 0; c < 3; c++) base[3 * v + c] = points[c * nodes + n]!;
+      for (let c = 0; c < 3; c++) rest[3 * v + c] = points[c * nodes + n]!;
       const f = this.vertices.faceOf[v]!;
       if (f >= 0) colors.set(parts[partOfFace[f]!]!, 4 * v);
     }
-    const position = new BufferAttribute(base, 3);
+    const position = new BufferAttribute(rest, 3);
     this.frameAttribute = new BufferAttribute(new Uint16Array(4 * count), 4, true);
     this.frameAttribute.setUsage(35048); // DYNAMIC_DRAW
     const shared = [
       this.faceGeometry,
+      this.coarseGeometry,
       this.outlineGeometry,
       this.meshGeometry,
       this.markFaces,
@@ -98,13 +124,15 @@ export class View {
       geometry.setAttribute("frame", this.frameAttribute);
       geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
     }
-    this.faceGeometry.setAttribute("base", new BufferAttribute(colors, 4, true));
+    const base = new BufferAttribute(colors, 4, true);
+    for (const geometry of [this.faceGeometry, this.coarseGeometry]) geometry.setAttribute("base", base);
 
     const plain = (color: Vector4, options: Parameters<typeof plainMaterial>[2] = {}) => plainMaterial(this.displacement, color, options);
     const ratio = this.renderer.getPixelRatio();
     const magenta = new Vector4(0.91, 0.12, 0.55, 0.82);
     this.objects = {
       faces: new Mesh(this.faceGeometry, this.faceMaterials.of(undefined)),
+      coarse: new Mesh(this.coarseGeometry, this.faceMaterials.of(undefined)),
       mesh: new LineSegments(this.meshGeometry, plain(new Vector4(0, 0, 0, 0.22))),
       outline: new LineSegments(this.outlineGeometry, plain(new Vector4(0, 0, 0, 0.75), { forward: 1e-6 })),
       markFaces: new Mesh(this.markFaces, plain(magenta, { forward: 2e-5 })),
@@ -117,10 +145,18 @@ export class View {
       object.renderOrder = order;
       this.scene.add(object);
     });
-    for (const empty of [this.markFaces, this.markNodes, this.selectedFace, this.selectedNode, this.meshGeometry, this.outlineGeometry])
+    for (const empty of [
+      this.coarseGeometry,
+      this.markFaces,
+      this.markNodes,
+      this.selectedFace,
+      this.selectedNode,
+      this.meshGeometry,
+      this.outlineGeometry,
+    ])
       this.setIndex(empty, new Uint32Array());
     this.rebuildFaces();
-    this.rig = new Rig(canvas, () => this.draw());
+    this.rig = new Rig(canvas, () => this.move());
     this.look([-0.75, -1, 0.62]);
   }
 
@@ -148,11 +184,28 @@ export class View {
     this.draw();
   }
 
+  /** Measures how long the whole picture takes; from then on, one that takes long is drawn coarser while it moves. */
+  makeCoarse(): void {
+    const start = performance.now();
+    this.drawNow();
+    this.wait();
+    if (performance.now() - start < SLOW) return;
+    const clusters = cluster(this.faces, this.vertices, this.points, this.partOfFace);
+    if (clusters.cell === 0) return;
+    this.clusters = clusters;
+    this.rebuildFaces();
+  }
+
   private rebuildFaces(): void {
     this.setIndex(
       this.faceGeometry,
       triangles(this.faces, this.vertices, (f) => this.visibleFace[f] === 1),
     );
+    if (this.clusters)
+      this.setIndex(
+        this.coarseGeometry,
+        coarseTriangles(this.faces, this.vertices, this.clusters, (f) => this.visibleFace[f] === 1),
+      );
   }
   private rebuildEdges(): void {
     if (!this.edges) return;
@@ -205,7 +258,7 @@ export class View {
         to[i + 2] = displacement[2 * nodes + n]!;
       }
     }
-    this.objects.faces.material = this.faceMaterials.of(coloring);
+    this.objects.faces.material = this.objects.coarse.material = this.faceMaterials.of(coloring);
     if (coloring) {
       const q = coloring.quanta;
       if (coloring.on === "element") {
@@ -218,7 +271,7 @@ export class View {
       }
     }
     this.frameAttribute.needsUpdate = true;
-    this.draw();
+    this.move();
   }
 
   setShown(shown: Range): void {
@@ -317,25 +370,13 @@ export class View {
     this.draw();
   }
 
-  /** Nodes of the visible faces. */
-  private visibleNodes(): number[] {
-    const seen = new Uint8Array(this.points.length / 3);
-    const out: number[] = [];
-    for (let f = 0; f < this.faces.count; f++) {
-      if (!this.visibleFace[f]) continue;
-      for (let k = 0; k < 4; k++) {
-        const i = this.faces.corners[k * this.faces.count + f]!;
-        if (!seen[i]) out.push(i);
-        seen[i] = 1;
-      }
-    }
-    return out;
-  }
-
   /** Brings the visible faces, or some nodes with something around them, into the frame. */
   fit(nodes?: readonly number[]): void {
     const positions = this.positions();
-    this.rig.fit({ positions, nodes: this.visibleNodes() }, nodes && nodes.length > 0 ? { positions, nodes } : undefined);
+    this.rig.fit(
+      { positions, nodes: nodesOf(this.faces, positions.length / 3, (f) => this.visibleFace[f] === 1) },
+      nodes && nodes.length > 0 ? { positions, nodes } : undefined,
+    );
   }
   look(direction: Vec): void {
     this.rig.look(direction);
@@ -352,9 +393,26 @@ export class View {
     this.drawRequested = true;
     requestAnimationFrame(() => this.drawNow());
   }
-  drawNow(): void {
+  /** Draws what will be followed by more. */
+  private move(): void {
+    if (this.clusters) {
+      this.moving = true;
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => {
+        this.moving = false;
+        this.draw();
+      }, REST);
+    }
+    this.draw();
+  }
+  /** @param whole with every element, even while the picture moves */
+  drawNow(whole = false): void {
     this.drawRequested = false;
     this.rig.updateDepth();
+    const coarse = this.moving && !whole && this.clusters!.cell * this.rig.pixelsPerLength < VISIBLE;
+    this.objects.coarse.visible = coarse;
+    this.objects.faces.visible = this.objects.mesh.visible = !coarse;
+    this.drawnCoarse = coarse;
     this.renderer.render(this.scene, this.rig.camera);
     this.drawCount++;
     this.onDraw?.();
