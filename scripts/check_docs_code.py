@@ -159,7 +159,7 @@ class Runner:
             return "unknown", f"unknown directive: {block.directive}"
         if not self.full:
             return "only in full", None
-        if kind == "full in a clone":
+        if kind in CLONE and "git clone" not in block.text:
             self.clone()
         text = block.text.replace("REPOSITORY", str(ROOT)) if kind == "full beside a clone" else block.text
         return "run", self.call(["bash", "-e", "-o", "pipefail", "-c", text], self.place / CLONE[kind] if kind in CLONE else folder)
@@ -280,7 +280,7 @@ def check(args, place):
         if not args.only or page in args.only:
             pages.append((page, list(blocks_of(page, path.read_text(encoding="utf-8")))))
     if args.full:  # a clone can be made only where there is none
-        pages.sort(key=lambda entry: not any(block.directive.startswith("full beside a clone") for block in entry[1]))
+        pages.sort(key=lambda entry: not any(block.directive.startswith("full") and "git clone" in block.text for block in entry[1]))
     counts, faults, later = {}, [], []
     for _, blocks in pages:
         with tempfile.TemporaryDirectory(prefix="page-", dir=place) as temporary:
