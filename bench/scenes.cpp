@@ -16,6 +16,7 @@
 
 #include "cycle_times.hpp"
 #include "init/start.hpp"
+#include "operations.hpp"
 #include "support/scene.hpp"
 
 namespace {
@@ -136,6 +137,7 @@ int main(int argc, char** argv) {
     std::printf(", \"ns_%s\": %.3f, \"ns_median_%s\": %.3f", key.c_str(), per_element * times.quantile(p, 0.0), key.c_str(),
                 per_element * times.quantile(p, 0.5));
   }
+  std::printf("%s", abut::bench::operations_text(elements * cycles).c_str());
   std::printf(", \"hash\": \"%016llx\"}\n", static_cast<unsigned long long>(cycle.hash()));
   return 0;
 }
