@@ -14,8 +14,9 @@ import {
   WebGLRenderer,
   type RawShaderMaterial,
 } from "three";
-import { TOP, type ChunkInfo } from "../data/chunk";
+import type { ChunkInfo } from "../data/chunk";
 import type { Range } from "../data/fields";
+import { fillIndex, movedPoints } from "./buffers";
 import { cluster, coarseTriangles, type Clusters } from "./coarse";
 import { makeArrows, type ArrowGroup } from "./arrows";
 import type { ColorMap } from "./colormap";
@@ -154,26 +155,10 @@ export class View {
       this.meshGeometry,
       this.outlineGeometry,
     ])
-      this.setIndex(empty, new Uint32Array());
+      fillIndex(empty, new Uint32Array());
     this.rebuildFaces();
     this.rig = new Rig(canvas, () => this.move());
     this.look([-0.75, -1, 0.62]);
-  }
-
-  /** Index buffers grow and are filled again: three.js keeps the GPU's copy of a buffer as long as its geometry. */
-  private setIndex(geometry: BufferGeometry, index: Uint32Array): void {
-    const old = geometry.index;
-    if (old && old.array.length >= index.length) {
-      (old.array as Uint32Array).set(index);
-      old.needsUpdate = true;
-    } else {
-      const room = new Uint32Array(Math.max(12, Math.ceil(1.3 * index.length)));
-      room.set(index);
-      const attribute = new BufferAttribute(room, 1);
-      attribute.setUsage(35048);
-      geometry.setIndex(attribute);
-    }
-    geometry.setDrawRange(0, index.length);
   }
 
   /** Edges are looked for when the first picture stands. */
@@ -197,12 +182,12 @@ export class View {
   }
 
   private rebuildFaces(): void {
-    this.setIndex(
+    fillIndex(
       this.faceGeometry,
       triangles(this.faces, this.vertices, (f) => this.visibleFace[f] === 1),
     );
     if (this.clusters)
-      this.setIndex(
+      fillIndex(
         this.coarseGeometry,
         coarseTriangles(this.faces, this.vertices, this.clusters, (f) => this.visibleFace[f] === 1),
       );
@@ -210,8 +195,8 @@ export class View {
   private rebuildEdges(): void {
     if (!this.edges) return;
     const visible = (f: number) => this.visibleFace[f] === 1;
-    this.setIndex(this.outlineGeometry, edgeLines(this.edges, this.outline, visible));
-    this.setIndex(this.meshGeometry, this.meshShown ? edgeLines(this.edges, undefined, visible) : new Uint32Array());
+    fillIndex(this.outlineGeometry, edgeLines(this.edges, this.outline, visible));
+    fillIndex(this.meshGeometry, this.meshShown ? edgeLines(this.edges, undefined, visible) : new Uint32Array());
   }
 
   /** @param visible per face, 1: drawn */
@@ -288,18 +273,7 @@ export class View {
   /** Positions as drawn, planar. */
   positions(): Float32Array {
     if (this.moved) return this.moved;
-    const out = new Float32Array(this.points);
-    const data = this.displacementData;
-    const info = this.displacementInfo;
-    if (data && info?.low && info.high) {
-      const n = this.points.length / 3;
-      const scale = this.displacement.uDeform.value;
-      for (let c = 0; c < 3; c++) {
-        const low = scale * info.low[c]!;
-        const unit = (scale * (info.high[c]! - info.low[c]!)) / TOP;
-        for (let i = c * n; i < (c + 1) * n; i++) out[i] = out[i]! + low + unit * data[i]!;
-      }
-    }
+    const out = movedPoints(this.points, this.displacementData, this.displacementInfo, this.displacement.uDeform.value);
     this.moved = out;
     return out;
   }
@@ -323,18 +297,18 @@ export class View {
       index.push(s[0]!, s[1]!, s[2]!);
       if (s[3] !== undefined && s[3] !== s[2]) index.push(s[0]!, s[2]!, s[3]);
     }
-    this.setIndex(this.markFaces, Uint32Array.from(index));
-    this.setIndex(this.markNodes, Uint32Array.from(nodes));
+    fillIndex(this.markFaces, Uint32Array.from(index));
+    fillIndex(this.markNodes, Uint32Array.from(nodes));
     this.draw();
   }
 
   select(face: number | undefined, node: number | undefined): void {
     const corners = face === undefined ? [] : [0, 1, 2, 3].map((k) => this.faces.corners[k * this.faces.count + face]!);
-    this.setIndex(
+    fillIndex(
       this.selectedFace,
       Uint32Array.from(face === undefined ? [] : [corners[0]!, corners[1]!, corners[2]!, corners[0]!, corners[2]!, corners[3]!]),
     );
-    this.setIndex(this.selectedNode, Uint32Array.from(node === undefined ? [] : [node]));
+    fillIndex(this.selectedNode, Uint32Array.from(node === undefined ? [] : [node]));
     this.draw();
   }
 
