@@ -76,7 +76,7 @@ def by_size(rows, out):
         def line(style, label, value):
             axes.plot(sizes, [value(row) / row["unit_ns"] for row in some], style, color=colour, label=f"{name}, {label}")
 
-        line("o-", "whole cycle", lambda row: row["ns_cycle"])
+        line("o-", "whole cycle", lambda row: row["ns"])
         line("s--", "elements", lambda row: row["ns_elements"])
         line(":", "bytes over bandwidth", lambda row: row["floor_bytes_ns"])
         line("-.", "operations over peak", lambda row: row["floor_operations_ns"])
@@ -130,15 +130,14 @@ def by_contact(path, out):
 
 
 def table(rows):
-    yield "| scene | elements | set, threads | ns | units | target | elements, ns | floor of bytes | of operations | ratio | elements: ratio | median, ns | load |"
+    yield "| scene | elements | set, threads | ns | units | target | elements, ns | floor of bytes | of operations | ratio | elements: ratio | mean CPU, ns | load |"
     yield "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-    order = sorted(rows, key=lambda row: (-row["threads"] if row["isa"] == "avx2" else -9, row["isa"], family(row), row["elements"]))
-    for row in sorted(order, key=lambda row: (row["isa"] != "avx2", row["threads"])):
+    for row in sorted(rows, key=lambda row: (row["isa"] != "avx2", row["threads"], family(row), row["elements"])):
         one = row["threads"] == 1
-        yield (f"| {row['scene']} | {count(row['elements'])} | {row['isa']}, {row['threads']:.0f} | {row['ns_cycle']:.0f} | {row['units_cycle']:.2f} | "
+        ratios = f"{row['ratio']:.1f} | {row['ratio_elements']:.1f}" if one else " | "
+        yield (f"| {row['scene']} | {count(row['elements'])} | {row['isa']}, {row['threads']:.0f} | {row['ns']:.0f} | {row['units_cycle']:.2f} | "
                f"{TARGETS[family(row)] if one and row['isa'] == 'avx2' else ''} | {row['ns_elements']:.0f} | {row['floor_bytes_ns']:.0f} | "
-               f"{row['floor_operations_ns']:.0f} | {row['ratio'] if one else 0:.1f} | {row['ratio_elements'] if one else 0:.1f} | "
-               f"{row['ns_median_cycle']:.0f} | {row['load']:.1f} |").replace("| 0.0 |", "| |")
+               f"{row['floor_operations_ns']:.0f} | {ratios} | {row['ns_cpu']:.0f} | {row['load']:.1f} |")
 
 
 def measured(rows, out, page):

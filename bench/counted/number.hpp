@@ -18,6 +18,14 @@ struct Operations {
 };
 inline Operations operations;
 
+struct CountedMask {
+  bool m = false;
+  friend CountedMask operator&(CountedMask a, CountedMask b) { return {a.m && b.m}; }
+  friend CountedMask operator|(CountedMask a, CountedMask b) { return {a.m || b.m}; }
+  friend CountedMask operator!(CountedMask a) { return {!a.m}; }
+};
+inline bool any(CountedMask a) { return a.m; }
+
 struct Counted {
   static constexpr int width = 1;
   double r = 0.0;
@@ -40,13 +48,13 @@ struct Counted {
   Counted& operator+=(Counted b) { return *this = *this + b; }
   Counted& operator-=(Counted b) { return *this = *this - b; }
   Counted& operator*=(Counted b) { return *this = *this * b; }
-  friend bool operator<(Counted a, Counted b) { return simple(a.r).r < b.r; }
-  friend bool operator<=(Counted a, Counted b) { return simple(a.r).r <= b.r; }
-  friend bool operator>(Counted a, Counted b) { return simple(a.r).r > b.r; }
-  friend bool operator>=(Counted a, Counted b) { return simple(a.r).r >= b.r; }
+  friend CountedMask operator<(Counted a, Counted b) { return {simple(a.r).r < b.r}; }
+  friend CountedMask operator<=(Counted a, Counted b) { return {simple(a.r).r <= b.r}; }
+  friend CountedMask operator>(Counted a, Counted b) { return {simple(a.r).r > b.r}; }
+  friend CountedMask operator>=(Counted a, Counted b) { return {simple(a.r).r >= b.r}; }
 };
 
-inline Counted select(bool c, Counted a, Counted b) { return Counted::simple(c ? a.r : b.r); }
+inline Counted select(CountedMask c, Counted a, Counted b) { return Counted::simple(c.m ? a.r : b.r); }
 inline Counted max(Counted a, Counted b) { return Counted::simple(max(a.r, b.r)); }
 inline Counted min(Counted a, Counted b) { return Counted::simple(min(a.r, b.r)); }
 inline Counted abs(Counted a) { return Counted::simple(abs(a.r)); }
