@@ -56,6 +56,11 @@ def select(rows, isa, threads):
     return sorted((row for row in rows if row["isa"] == isa and row["threads"] == threads), key=lambda row: (family(row), row["elements"]))
 
 
+def interrupted(row):
+    """Whether no cycle of the row was left alone: the wall times of its phases then say nothing (the CPU time of a cycle still does)."""
+    return row["threads"] == 1 and row["ns_cycle"] > 1.2 * row["ns"]
+
+
 def count(number):
     return f"{int(number):,}".replace(",", " ")
 
@@ -77,7 +82,7 @@ def by_size(rows, out):
             axes.plot(sizes, [value(row) / row["unit_ns"] for row in some], style, color=colour, label=f"{name}, {label}")
 
         line("o-", "whole cycle", lambda row: row["ns"])
-        line("s--", "elements", lambda row: row["ns_elements"])
+        line("s--", "elements", lambda row: float("nan") if interrupted(row) else row["ns_elements"])
         line(":", "bytes over bandwidth", lambda row: row["floor_bytes_ns"])
         line("-.", "operations over peak", lambda row: row["floor_operations_ns"])
         axes.axhline(TARGETS[name], color=colour, alpha=0.4, linewidth=0.8)
@@ -89,14 +94,14 @@ def by_size(rows, out):
 
 def by_phase(rows, out):
     figure, axes = plt.subplots()
-    some = select(rows, "avx2", 1)
+    some = [row for row in select(rows, "avx2", 1) if not interrupted(row)]
     names = [f"{family(row)}\n{count(row['elements'])}" for row in some]
     bottom = [0.0] * len(names)
     for phase, colour in PHASES.items():
-        widths = [row[f"ns_median_{phase}"] for row in some]
+        widths = [row[f"ns_{phase}"] for row in some]
         axes.bar(names, widths, bottom=bottom, color=colour, label=phase.replace("_", " "))
         bottom = [a + b for a, b in zip(bottom, widths)]
-    axes.set(ylabel="ns per element and cycle", title="Time per phase, median over the cycles")
+    axes.set(ylabel="ns per element and cycle", title="Time per phase, least over the cycles")
     axes.tick_params(axis="x", labelsize=7)
     axes.legend(fontsize=8)
     save(figure, out / "phases.svg")
@@ -105,6 +110,7 @@ def by_phase(rows, out):
 def by_threads(rows, out):
     pairs = [(one, two) for two in select(rows, "avx2", 2) for one in select(rows, "avx2", 1) if one["scene"] == two["scene"]]
     if not pairs:
+        (out / "threads.svg").unlink(missing_ok=True)
         return
     figure, axes = plt.subplots()
     places = range(len(pairs))
@@ -134,10 +140,11 @@ def table(rows):
     yield "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
     for row in sorted(rows, key=lambda row: (row["isa"] != "avx2", row["threads"], family(row), row["elements"])):
         one = row["threads"] == 1
-        ratios = f"{row['ratio']:.1f} | {row['ratio_elements']:.1f}" if one else " | "
+        alone = not interrupted(row)
+        ratios = f"{row['ratio']:.1f} | {row['ratio_elements'] if alone else float('nan'):.1f}".replace("nan", "") if one else " | "
         yield (f"| {row['scene']} | {count(row['elements'])} | {row['isa']}, {row['threads']:.0f} | {row['ns']:.0f} | {row['units_cycle']:.2f} | "
-               f"{TARGETS[family(row)] if one and row['isa'] == 'avx2' else ''} | {row['ns_elements']:.0f} | {row['floor_bytes_ns']:.0f} | "
-               f"{row['floor_operations_ns']:.0f} | {ratios} | {row['ns_cpu']:.0f} | {row['load']:.1f} |")
+               f"{TARGETS[family(row)] if one and row['isa'] == 'avx2' else ''} | {row['ns_elements'] if alone else float('nan'):.0f} | {row['floor_bytes_ns']:.0f} | "
+               f"{row['floor_operations_ns']:.0f} | {ratios} | {row['ns_cpu']:.0f} | {row['load']:.1f} |").replace("| nan |", "| |")
 
 
 def measured(rows, out, page):
