@@ -16,6 +16,7 @@
 
 #include "cycle_times.hpp"
 #include "init/start.hpp"
+#include "operations.hpp"
 #include "support/scene.hpp"
 
 namespace {
@@ -129,13 +130,14 @@ int main(int argc, char** argv) {
   std::printf(", \"bytes_per_element\": %.0f, \"peak_bytes_per_element\": %.0f", (memory("VmRSS") - before) / elements,
               (std::max(after_init, memory("VmHWM")) - before) / elements);
   std::printf(", \"counted_bytes\": %.1f", counted_bytes(scene.model) / elements);
-  std::printf(", \"ns_cpu\": %.3f", per_element * (cpu() - cpu_init) / cycles);
+  std::printf(", \"ns_cpu\": %.3f, \"ns_least_cpu\": %.3f", per_element * (cpu() - cpu_init) / cycles, per_element * times.least_cpu);
   for (std::size_t p = 0; p < times.names.size(); ++p) {
     std::string key = times.names[p];
     std::replace(key.begin(), key.end(), ' ', '_');
     std::printf(", \"ns_%s\": %.3f, \"ns_median_%s\": %.3f", key.c_str(), per_element * times.quantile(p, 0.0), key.c_str(),
                 per_element * times.quantile(p, 0.5));
   }
+  std::printf("%s", abut::bench::operations_text(elements * cycles).c_str());
   std::printf(", \"hash\": \"%016llx\"}\n", static_cast<unsigned long long>(cycle.hash()));
   return 0;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the code of the documentation: every fenced block of README.md, CONTRIBUTING.md, docs/ and examples/README.md.
 
-usage: check_docs_code.py [--abut PROGRAM] [--library FILE] [--python PROGRAM --python-path FOLDER] [--only PAGE ...] [--list]
+usage: check_docs_code.py [--full] [--abut PROGRAM] [--library FILE] [--python PROGRAM --python-path FOLDER] [--only PAGE ...] [--list]
 
 What a block is follows from its info string and from a comment right above it, and no block is passed over:
 
@@ -17,9 +17,13 @@ What a block is follows from its info string and from a comment right above it, 
   <!-- code: excerpt of FILE -->   not run, but every line stands in FILE in this order ("..." skips lines; indentation and
                                    the slashes of a comment do not count)
   <!-- code: fails -->             the commands of the block end with an error, as the page says
-  <!-- code: by hand, REASON -->   not run here; every program that it starts must exist in the repository or be named in KNOWN
+  <!-- code: full, REASON -->      run with --full only (./check --full), and named with its reason without it
+  <!-- code: full in a clone, REASON -->      the same, in a clone of the repository named abut (with what is not committed), which such blocks share
+  <!-- code: full beside a clone, REASON -->  the same, where that clone lies; REPOSITORY stands for this repository
 
-The blocks of a page share one temporary folder, which has the repository's examples/ and scripts/; abut is on the PATH. Blocks "by hand" are listed.
+The blocks of a page share one temporary folder, which has the repository's examples/, scripts/ and tools/; abut is on the PATH. What would open a
+window is read instead: `paraview FILE` opens every state of FILE with VTK's own reader (tests/decks/read_animation.py).
+With --full only the blocks marked "full" are run, pages that clone first.
 Exit status 1 if a block does not do what it says. Standard library only.
 """
 import argparse
@@ -29,12 +33,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ["README.md", "CONTRIBUTING.md", "examples/README.md"]
-KNOWN = {"cd", "cmake", "ctest", "git", "paraview", "apt-get", "sudo", "python3", "pip", "npm", "man", "source", "xdg-open", "firefox", "bench/run", "export"}
 LIMIT = 300  # seconds for one block
+FULL_LIMIT = 5400  # seconds for one that is marked "full"
+CLONE = {"full in a clone": "abut", "full beside a clone": "."}
 
 
 class Block:
@@ -119,16 +125,48 @@ def commands_of(text):
 
 
 class Runner:
-    def __init__(self, program, library, python=sys.executable, python_path=None):
-        self.program, self.library, self.python, self.python_path = Path(program), library, python, python_path
-        self.environment = {**os.environ, "PATH": f"{self.program.parent}:{os.environ['PATH']}", "ABUT_SKIP_DEPS": "1", "LC_ALL": "C.UTF-8"}
-        if python_path:
+    def __init__(self, program, library, place, python=sys.executable, python_path=None, full=False):
+        """@param place a folder for what all pages share"""
+        self.program, self.library, self.place, self.python, self.python_path = Path(program), library, Path(place), python, python_path
+        self.full, self.limit = full, FULL_LIMIT if full else LIMIT
+        programs = self.place / "programs"
+        programs.mkdir()
+        window = programs / "paraview"
+        window.write_text(f'#!/bin/sh\nexec /usr/bin/python3 {ROOT}/tests/decks/read_animation.py "$@"\n')
+        window.chmod(0o755)
+        (programs / "python3").symlink_to(shutil.which(python))
+        self.environment = {**os.environ, "PATH": f"{programs}:{self.program.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
+        if not full:
+            self.environment["ABUT_SKIP_DEPS"] = "1"
+        if python_path and not full:
             self.environment["PYTHONPATH"] = str(python_path)
         self.printed = ""
 
+    def clone(self):
+        """The clone that pages share: what is committed, and over it what is not."""
+        clone = self.place / "abut"
+        if not clone.exists():
+            subprocess.run(["git", "clone", "--quiet", ROOT, clone], check=True)
+        changed = subprocess.run(["git", "ls-files", "--modified", "--others", "--exclude-standard"], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE)
+        for name in changed.stdout.splitlines():
+            if (ROOT / name).is_file():
+                (clone / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(ROOT / name, clone / name)
+
+    def run_in_full(self, block, folder):
+        kind, _, reason = block.directive.partition(", ")
+        if kind not in ("full", *CLONE) or not reason:
+            return "unknown", f"unknown directive: {block.directive}"
+        if not self.full:
+            return "only in full", None
+        if kind in CLONE and "git clone" not in block.text:
+            self.clone()
+        text = block.text.replace("REPOSITORY", str(ROOT)) if kind == "full beside a clone" else block.text
+        return "run", self.call(["bash", "-e", "-o", "pipefail", "-c", text], self.place / CLONE[kind] if kind in CLONE else folder)
+
     def call(self, command, folder, may_fail=False):
         done = subprocess.run(command, cwd=folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, errors="replace", timeout=LIMIT)
+                              text=True, errors="replace", timeout=self.limit)
         self.printed = done.stdout
         if (done.returncode != 0) != may_fail:
             tail = "\n    ".join(done.stdout.splitlines()[-8:])
@@ -157,12 +195,14 @@ class Runner:
     def run(self, block, folder):
         """@returns (kind, fault or None)"""
         directive, language = block.directive, block.language
+        if directive.startswith("full"):
+            return self.run_in_full(block, folder)
+        if self.full:
+            return "left out", None
         if directive == "output":
             return "outputs", output_differs(block.text, self.printed)
         if directive.startswith("excerpt of "):
             return "excerpts", excerpt_differs(block.text, ROOT / directive.removeprefix("excerpt of ").strip())
-        if directive.startswith("by hand, "):
-            return "by hand", unknown_program(block)
         if directive not in ("", "fails"):
             return "unknown", f"unknown directive: {directive}"
         may_fail = directive == "fails"
@@ -205,60 +245,62 @@ def excerpt_differs(text, path):
     return None
 
 
-def unknown_program(block):
-    for line in block.text.splitlines():
-        command = line.removeprefix("$ ").partition("#")[0].split()
-        if block.language == "console" and not line.startswith("$ ") or not command:
-            continue
-        program = command[0]
-        if program not in KNOWN and program != "abut" and not (ROOT / program).is_file() and not re.fullmatch(r"build/release/bin/(abut|test_\w+)", program):
-            return f"starts {program}, which is not in the repository"
-    return None
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--abut", default=ROOT / "build/release/bin/abut", type=Path)
     parser.add_argument("--library", type=Path, default=ROOT / "build/release/libabut_contact.a")
     parser.add_argument("--python", default=sys.executable, help="interpreter that the module abut is for")
     parser.add_argument("--python-path", type=Path, help="folder of the package abut, e.g. build/release/python")
+    parser.add_argument("--full", action="store_true", help="run the blocks marked full, and no others: minutes")
     parser.add_argument("--only", nargs="*", default=[], help="pages, as paths from the root of the repository")
     parser.add_argument("--list", action="store_true", help="say what each block is")
     args = parser.parse_args()
 
-    pages = [ROOT / name for name in PAGES] + sorted((ROOT / "docs").rglob("*.md"))
-    counts, faults, by_hand = {}, [], []
-    runner = Runner(args.abut.resolve(), args.library.resolve() if args.library.is_file() else None, args.python,
-                    args.python_path.resolve() if args.python_path else None)
-    for path in pages:
+    with tempfile.TemporaryDirectory(prefix="abut-docs-") as place:
+        return check(args, place)
+
+
+def furnish(folder, runner):
+    """What the page's blocks find around them."""
+    for name in ("examples", "scripts", "tools"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "docs/verification").mkdir(parents=True)
+    (folder / "build/release").mkdir(parents=True)
+    (folder / "build/release/bin").symlink_to(runner.program.parent)
+    if runner.python_path:
+        (folder / "build/release/python").symlink_to(runner.python_path)
+
+
+def check(args, place):
+    runner = Runner(args.abut.resolve(), args.library.resolve() if args.library.is_file() else None, place, args.python,
+                    args.python_path.resolve() if args.python_path else None, args.full)
+    pages = []
+    for path in [ROOT / name for name in PAGES] + sorted((ROOT / "docs").rglob("*.md")):
         page = path.relative_to(ROOT).as_posix()
-        if args.only and page not in args.only:
-            continue
-        blocks = list(blocks_of(page, path.read_text(encoding="utf-8")))
-        with tempfile.TemporaryDirectory(prefix="abut-docs-") as temporary:
+        if not args.only or page in args.only:
+            pages.append((page, list(blocks_of(page, path.read_text(encoding="utf-8")))))
+    if args.full:  # a clone can be made only where there is none
+        pages.sort(key=lambda entry: not any(block.directive.startswith("full") and "git clone" in block.text for block in entry[1]))
+    counts, faults, later = {}, [], []
+    for _, blocks in pages:
+        with tempfile.TemporaryDirectory(prefix="page-", dir=place) as temporary:
             folder = Path(temporary)
             if any(block.language in ("console", "sh", "bash", "python") for block in blocks):
-                shutil.copytree(ROOT / "examples", folder / "examples")
-                shutil.copytree(ROOT / "scripts", folder / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
-                (folder / "build/release").mkdir(parents=True)
-                (folder / "build/release/bin").symlink_to(runner.program.parent)
-                if runner.python_path:
-                    (folder / "build/release/python").symlink_to(runner.python_path)
-                if (ROOT / "tools").is_dir():
-                    shutil.copytree(ROOT / "tools", folder / "tools", ignore=shutil.ignore_patterns("__pycache__"))
+                furnish(folder, runner)
             for block in blocks:
+                start = time.monotonic()
                 try:
                     kind, fault = runner.run(block, folder)
-                except (ValueError, OSError, subprocess.TimeoutExpired) as error:
+                except (ValueError, OSError, subprocess.SubprocessError) as error:
                     kind, fault = "run", str(error)
                 counts[kind] = counts.get(kind, 0) + 1
-                if kind == "by hand":
-                    by_hand.append(f"{block.where}: {block.directive}")
-                if args.list:
-                    print(f"{block.where}: {kind} {block.language}")
+                if kind == "only in full":
+                    later.append(f"{block.where}: {block.directive}")
+                if args.list or (args.full and kind == "run"):
+                    print(f"{block.where}: {kind} {block.language}, {time.monotonic() - start:.0f} s", flush=True)
                 if fault:
                     faults.append(f"{block.where}: {fault}")
-    print("\n".join([*faults, *by_hand]))
+    print("\n".join([*faults, *later]))
     print(", ".join(f"{count} {kind}" for kind, count in sorted(counts.items())) + f": {len(faults)} faults")
     return 1 if faults or not counts else 0
 

@@ -84,7 +84,7 @@ def main():
             print(f"  {line}")
     animations = sorted(folder.glob("*.pvd"))
     if animations:
-        print(f"See it: paraview {animations[0]}   (Debian: apt-get install paraview; colour by a field, press play)")
+        print(f"See it: abut report {folder} (one page for any browser), or paraview {animations[0]} (Debian: apt-get install paraview)")
     return 0
 
 

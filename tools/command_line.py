@@ -32,7 +32,7 @@ class Option:
         self.choices = re.findall(r"\{([^}]*)\}", rest)[0].split(",") if "{" in rest else []
         self.default = (re.search(r"=(\S+)$", re.sub(r"\{[^}]*\}", "", rest)) or [None, ""])[1]
         self.needs = (re.search(r"Needs: (\S+)", rest) or [None, ""])[1]
-        self.value = {"TEXT": "FILE", "INT": "N", "FLOAT": "X"}.get(re.match(r"[A-Z]*", rest).group(0), "")
+        self.value = {"TEXT": "FOLDER" if text.startswith("run folder") else "FILE", "INT": "N", "FLOAT": "X"}.get(re.match(r"[A-Z]*", rest).group(0), "")
         form = re.match(r"(ID[^\s,]*), ", text)  # a value with a form of its own: "ID:TIME, ..."
         if form:
             self.value, text = form.group(1), text[form.end():]
@@ -119,6 +119,8 @@ def completion(top, pages):
                 out.append(f"    {pattern}) COMPREPLY=($(compgen -W '{' '.join(option.choices)}' -- \"$current\")); return ;;")
             elif option.value == "FILE":
                 out.append(f"    {pattern}) COMPREPLY=($(compgen -f -- \"$current\")); return ;;")
+            elif option.value == "FOLDER":
+                out.append(f"    {pattern}) COMPREPLY=($(compgen -d -- \"$current\")); return ;;")
             elif option.value:
                 out.append(f"    {pattern}) return ;;")
     out += ["  esac", "  case $verb in"]

@@ -2,10 +2,13 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <limits>
+#include <string_view>
+#include <vector>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -122,6 +125,17 @@ int main(int argc, char** argv) {
   CLI::App* keywords_app = app.add_subcommand("keywords", "print what abut does with each keyword of a deck, as Markdown");
   keywords_app->add_option("WORD", keywords.word, "only keywords that contain this word, e.g. INTER");
 
+  if (argc > 1 && argv[1][0] != '-') {
+    const std::string_view word = argv[1];
+    const std::vector<CLI::App*> commands = app.get_subcommands({});
+    if (std::ranges::none_of(commands, [&](const CLI::App* command) { return command->get_name() == word; })) {
+      fmt::print(stderr, "abut: there is no command '{}'{}\nCommands:", word,
+                 word.ends_with(".rad") ? fmt::format("; to run a deck: abut run {}", word) : "");
+      for (const CLI::App* command : commands) fmt::print(stderr, " {}", command->get_name());
+      fmt::print(stderr, " (abut --help)\n");
+      return wrong_usage;
+    }
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -6,7 +6,7 @@ _abut() {
   done
   COMPREPLY=()
   case $verb:$before in
-    run:-o|run:--output) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    run:-o|run:--output) COMPREPLY=($(compgen -d -- "$current")); return ;;
     run:--threads) return ;;
     run:--profile) COMPREPLY=($(compgen -W 'standard reference' -- "$current")); return ;;
     run:--interface-law) COMPREPLY=($(compgen -W 'stiffening constant' -- "$current")); return ;;

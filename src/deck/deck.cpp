@@ -26,6 +26,19 @@ fs::path engine_path(const fs::path& starter, int run) {
   return {};
 }
 
+/// The Starter deck that a user means who names something else: the one beside an Engine deck, or a name without _0000.rad; empty: none.
+fs::path meant_starter(const fs::path& named) {
+  std::error_code error;
+  const std::string stem = named.stem().string();
+  const std::size_t mark = stem.size() < 5 ? std::string::npos : stem.size() - 5;
+  if (mark != std::string::npos && stem[mark] == '_' && stem.find_first_not_of("0123456789", mark + 1) == std::string::npos) {
+    const fs::path starter = named.parent_path() / (stem.substr(0, mark) + "_0000" + named.extension().string());
+    if (starter != named && fs::exists(starter, error)) return starter;
+  }
+  const fs::path longer = named.string() + "_0000.rad";
+  return fs::exists(longer, error) ? longer : fs::path{};
+}
+
 /// Reads the Engine deck of a run into `deck`; false when there is none.
 bool read_engine(const fs::path& starter, int run, Deck& deck, Diagnostics& diagnostics) {
   std::error_code error;
@@ -75,8 +88,14 @@ DeckPair read(const fs::path& starter, Diagnostics& diagnostics) {
   std::string text;
   Place place;
   place.file = printable(starter.string());
+  const fs::path meant = meant_starter(starter);
+  const std::string hint = meant.empty() ? "" : fmt::format("; there is '{}'", printable(meant.string()));
   if (!read_file(starter, text)) {
-    diagnostics.error("deck.file", place, "cannot be read: the path of a Starter deck NAME_0000.rad is needed");
+    diagnostics.error("deck.file", place, "cannot be read: the path of a Starter deck NAME_0000.rad is needed" + hint);
+    return pair;
+  }
+  if (!meant.empty()) {
+    diagnostics.error("deck.file", place, "this is an Engine deck: name the Starter deck, the Engine deck is taken along" + hint);
     return pair;
   }
   const std::size_t start = starter_offset(text);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <fstream>
 #include <utility>
 
 #include "output/element_lookup.hpp"
@@ -19,7 +20,17 @@ Json energies_json(const state::Balance& b) {
           {"ERR", b.err}, {"LEDGER", b.ledger}, {"initial", b.initial}, {"largest", b.largest}};
 }
 
+std::string fingerprint_text(std::uint64_t fingerprint) { return fmt::format("{:016x}", fingerprint); }
+
 }  // namespace
+
+bool manifest_is_of(const RunFolder& folder, std::uint64_t model_fingerprint) {
+  std::ifstream file(folder.manifest());
+  const Json j = Json::parse(file, nullptr, false);
+  if (!j.is_object()) return true;
+  const Json::json_pointer place("/model/fingerprint");
+  return !j.contains(place) || j[place] == fingerprint_text(model_fingerprint);
+}
 
 Manifest::Manifest(RunFolder folder, RunInfo info, std::function<std::vector<PhaseTime>()> timings)
     : folder_(std::move(folder)), info_(std::move(info)), timings_(std::move(timings)) {}
@@ -43,6 +54,7 @@ void Manifest::begin(const cycle::Snapshot& first) {
                    {"hash_every", info_.hash_every}};
   for (const init::GradualStart& s : info_.contact_ramps) j["settings"]["contact_ramp"][std::to_string(s.interface_id)] = s.duration;
   j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
+  j["model"]["fingerprint"] = fingerprint_text(info_.model_fingerprint);
   j["findings"] = findings_json(info_.findings);
   j["contact"] = contact_json(info_.contact);
   j["files"] = {{"listing", folder_.listing().filename().string()},

@@ -1,6 +1,7 @@
 // run.json: what ran, with what, how it ended.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "output/run_record.hpp"
 
 namespace abut::output {
+
+/// False when a folder's run.json says that its results are those of another model; true also when there is none that says it.
+[[nodiscard]] bool manifest_is_of(const RunFolder& folder, std::uint64_t model_fingerprint);
 
 /// Written before the first cycle (outcome "running": that is what a killed run leaves) and at the end, each time as a
 /// whole. Keys: abut, decks, settings, model, findings, contact (findings of the contact inspection with all ids), started, resumed, files;

@@ -35,9 +35,10 @@ struct RunInfo {
   std::string profile = "standard";
   std::string interface_law;  ///< "stiffening", "constant"; empty: the profile's
   std::vector<init::GradualStart> contact_ramps;
-  int hash_every = 0;                  ///< 0: no state hash
-  std::optional<ResumedFrom> resumed;  ///< its files go on, too
-  std::vector<std::string> decks;      ///< paths of the Starter and Engine decks and their includes
+  int hash_every = 0;                   ///< 0: no state hash
+  std::optional<ResumedFrom> resumed;   ///< its files go on, too
+  std::uint64_t model_fingerprint = 0;  ///< of the Starter deck's text
+  std::vector<std::string> decks;       ///< paths of the Starter and Engine decks and their includes
   std::vector<Diagnostic> findings;
   std::vector<init::ContactFinding> contact;                              ///< what the inspection found; also among the findings, as text
   std::shared_ptr<RunFindings> during = std::make_shared<RunFindings>();  ///< filled while the run goes on; shared by its outputs

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "output/files.hpp"
+#include "output/manifest.hpp"
 #include "run/session.hpp"
 
 namespace abut {
@@ -241,6 +242,9 @@ Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted
   const auto from_file = [&](const std::filesystem::path& path) {
     run::Checkpoint from(path);
     const run::CheckpointInfo& info = from.info;
+    if (!output::manifest_is_of({candidates.folder, info.name}, info.fingerprint)) {
+      refuse(path, fmt::format("it is of another model ('{}') than the results in this folder", info.name));
+    }
     const Model model = model_of(info, path, wanted.deck);
     RunSettings settings;
     settings.threads = wanted.threads;

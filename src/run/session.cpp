@@ -80,6 +80,7 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
   info.interface_law = run::law_name(settings.choices);
   info.contact_ramps = settings.choices.gradual_starts;
   info.hash_every = settings.hash_every;
+  info.model_fingerprint = model.fingerprint();
   info.decks.assign(model.files().begin(), model.files().end());
   info.findings = findings.all();
   info.contact = inspection.contact;

@@ -36,11 +36,17 @@ def usage(abut):
     for arguments in ((), ("run",), ("fly",), ("run", "x", "--profile", "none"), ("run", "x", "--threads", "0"), ("run", "x", "--hash-every", "often")):
         result = call(abut, *arguments)
         expect(result.returncode == 2 and result.stderr, f"wrong usage {arguments} ends with 2 and a message", result)
+    result = call(abut, "some_0000.rad")
+    expect(result.returncode == 2 and "abut run some_0000.rad" in result.stderr, "a deck without a command: what to type", result)
     result = call(abut, "check", "no such deck_0000.rad")
     expect(result.returncode == 1 and "no such deck_0000.rad" in result.stderr, "a missing deck ends with 1 and is named", result)
 
 
 def check(abut, deck):
+    for other in (deck.replace("_0000.rad", "_0001.rad"), deck.removesuffix("_0000.rad")):
+        result = call(abut, "check", other)
+        expect(result.returncode == 1 and f"there is '{deck}'" in result.stderr and len(result.stderr.splitlines()) <= 2,
+               "an Engine deck, or a name without its end: the Starter deck that is there is named", result)
     result = call(abut, "check", deck)
     expect(result.returncode == 0 and "Counts" in result.stdout, "check summarises", result)
     result = call(abut, "check", deck, "--json")

@@ -7,10 +7,12 @@ ABUT is the program, DECK a Starter deck that has no errors, with its Engine dec
 
 - kill -9 at N random moments, of runs and of resumed runs, on changing numbers of threads: what is in the folder is readable,
   and the run that goes on ends with the time history, the animation and the state hashes of the run that was never stopped;
-- a disk that is full (a limit on the size of files) during a checkpoint, and during the time history;
+- a disk that is full during a checkpoint, and during the time history: a limit on the size of files, and (as root, or where users may make
+  namespaces) a file system that is really full;
 - checkpoints cut off and with flipped bits: the one before is taken, or a clear refusal;
 - checkpoints of another model, of a changed Engine deck, of another version: refused, and the folder stays as it is;
-- a chain of Engine decks NAME_0001, NAME_0002 ends in the state of one run to the same time.
+- a chain of Engine decks NAME_0001, NAME_0002 ends in the state of one run to the same time: run at once, and by `abut resume` with kills
+  in run 2; run 2 does not begin in the state of another model.
 Exit status 0 when all holds.
 """
 import argparse
@@ -204,6 +206,71 @@ def full_disk(case):
     print("a full disk does no harm")
 
 
+# Ends with 0, 1 (abut's), or 77: no file system can be mounted here. $1: its size in kB, $2: the folder, then the command.
+SMALL_DISK = """
+size=$1; place=$2; shift 2
+mount -t tmpfs -o size=${size}k tmpfs "$place" 2>/dev/null || exit 77
+cp -r "$place.content/." "$place" || exit 76
+"$@"
+status=$?
+rm -rf "$place.content" && cp -r "$place" "$place.content"
+exit $status
+"""
+
+
+def small_disk(case):
+    """A file system on which the folder of a killed run has a little room left, in a mount namespace of its own."""
+    folder = os.path.join(case.folder, "small")
+    start = os.path.join(case.folder, "start_small")
+    half_way(case, start)
+    used = sum(-(-len(content) // 4096) * 4 for content in contents(start).values())
+    as_root = ["unshare", "--mount"] if os.geteuid() == 0 else ["unshare", "--user", "--map-root-user", "--mount"]
+    checkpoint = os.path.getsize(case.checkpoint(start)) // 1024
+    stopped = 0
+    for room in (8, checkpoint // 2, checkpoint + 16):  # kB
+        for path in (folder, folder + ".content"):
+            shutil.rmtree(path, ignore_errors=True)
+        os.makedirs(folder)
+        shutil.copytree(start, folder + ".content")
+        before = [content for name, content in contents(start).items() if name.endswith(".rst")]
+        result = subprocess.run([*as_root, "sh", "-c", SMALL_DISK, "sh", str(used + room), folder, case.abut, "resume", folder, "--quiet"],
+                                capture_output=True, text=True, timeout=300)
+        if result.returncode == 77 or "unshare" in result.stderr:
+            print("a file system that is really full: left out, none can be mounted here")
+            return
+        expect(result.returncode in (0, 1), "on a small disk a run ends with 0 or 1", result)
+        shutil.rmtree(folder)
+        os.rename(folder + ".content", folder)
+        case.expect_readable(folder)
+        if result.returncode == 0:
+            case.expect_same(folder, f"with {room} kB of room")
+            continue
+        stopped += 1
+        expect("No space left on device" in result.stderr, "a full file system is named", result)
+        expect(read(case.checkpoint(folder)) in before, "a checkpoint that was there is kept", result)
+        result = case.resume(folder)
+        expect(result.returncode == 0, "with room again the run goes on", result)
+        case.expect_same(folder, f"after a file system was full with {room} kB left")
+    expect(stopped > 0, "the file system was full in one of the cases")
+    print(f"a full file system stopped {stopped} of 3 runs and does no harm")
+
+
+def another_model(case):
+    """A run of the same name of which one node lies elsewhere. @returns its folder, with a checkpoint"""
+    decks = os.path.join(case.folder, "another")
+    os.makedirs(decks)
+    shutil.copy(case.deck.replace("_0000.rad", "_0001.rad"), decks)
+    text = open(case.deck).read()
+    line = re.search(r"(?m)^/NODE\n(?:#.*\n)*(.*)$", text)
+    moved = line.group(1)[:-1] + ("1" if line.group(1)[-1] != "1" else "2")
+    write(os.path.join(decks, os.path.basename(case.deck)), (text[:line.start(1)] + moved + text[line.end(1):]).encode())
+    folder = os.path.join(case.folder, "run_of_another")
+    other = Case.__new__(Case)
+    other.__dict__.update(case.__dict__, deck=os.path.join(decks, os.path.basename(case.deck)))
+    half_way(other, folder)
+    return folder
+
+
 def damages(case, count):
     start = os.path.join(case.folder, "start")
     half_way(case, start)
@@ -278,6 +345,15 @@ def others(case):
     untouched(case, folder, "an Engine deck of the runs up to 1 was changed since", "a changed Engine deck is refused", "--deck", other)
     untouched(case, folder, "is not there any more", "a deck that is gone is named", "--deck", os.path.join(decks, "none_0000.rad"))
 
+    mixed = os.path.join(case.folder, "mixed")
+    another = another_model(case)
+    for previous in (False, True):  # the newest alone, and both
+        shutil.rmtree(mixed, ignore_errors=True)
+        shutil.copytree(folder, mixed)
+        for which in {False, previous}:
+            shutil.copy(case.checkpoint(another), case.checkpoint(mixed, which))
+        untouched(case, mixed, "it is of another model", "the checkpoint of another model is refused")
+
     good = read(case.checkpoint(folder))
     version = re.search(rb"\d+\.\d+\.\d+", good[24:200]).group()
     changed = good[:-8].replace(version, b"9" * len(version), 1)
@@ -292,7 +368,7 @@ def others(case):
     print("other models, decks and versions are refused")
 
 
-def chain(case):
+def chain(case, kills_in_run_2):
     """Run 1 to 40 % of the time and run 2 to the end: the state is that of one run; rows at the seam may be more."""
     decks = os.path.join(case.folder, "chain")
     os.makedirs(decks)
@@ -302,7 +378,26 @@ def chain(case):
     end = re.search(r"(?m)^(/RUN/.*)/1\s*\n\s*(\S+)", text)
     first = text.replace(end.group(0), f"{end.group(1)}/1\n{0.4 * float(end.group(2))}", 1)
     write(deck.replace("_0000.rad", "_0001.rad"), first.encode())
-    write(deck.replace("_0000.rad", "_0002.rad"), f"{end.group(1)}/2\n{end.group(2)}\n".encode())
+    second = deck.replace("_0000.rad", "_0002.rad")
+    folder = os.path.join(case.folder, "in_steps")
+    more = ("--hash-every", HASH_EVERY, "--checkpoint-every", CHECKPOINT_EVERY)
+    result = call(case.abut, "run", deck, "-o", folder, "--quiet", *more)
+    expect(result.returncode == 0, "run 1 of a chain runs", result)
+    write(second, f"{end.group(1)}/2\n{end.group(2)}\n".encode())
+    last = read(case.checkpoint(folder))
+    for which in (False, True):
+        shutil.copy(case.checkpoint(os.path.join(case.folder, "run_of_another")), case.checkpoint(folder, which))
+    untouched(case, folder, "it is of another model", "run 2 does not begin in the state of another model")
+    write(case.checkpoint(folder), last)
+    os.remove(case.checkpoint(folder, True))
+    command = [case.abut, "resume", folder, "--quiet", "--threads", "2"]
+    killed = sum(kill_some_time(case, command, 0.4 * case.seconds) for _ in range(kills_in_run_2))
+    case.expect_readable(folder)
+    result = case.resume(folder)
+    expect(result.returncode == 0 or "the run is finished" in result.stderr, "run 2 goes on after kills", result)
+    case.expect_same(folder, f"after {killed} kills in run 2")
+    print(f"abut resume takes NAME_0002.rad; {killed} kills in run 2")
+
     folder = os.path.join(case.folder, "chained")
     result = call(case.abut, "run", deck, "-o", folder, "--quiet", "--threads", 2, "--hash-every", HASH_EVERY)
     expect(result.returncode == 0, "a chain of Engine decks runs", result)
@@ -327,9 +422,10 @@ def main():
         case = Case(os.path.abspath(arguments.abut), arguments.deck, folder, random.Random(arguments.seed))
         kills(case, arguments.kills)
         full_disk(case)
+        small_disk(case)
         damages(case, arguments.damages)
         others(case)
-        chain(case)
+        chain(case, max(2, arguments.kills // 5))
     return 0
 
 

@@ -162,6 +162,10 @@ Index Scene::surface(const Block& b, int axis, bool high) {
   s.id = static_cast<Id>(model.surfaces.size()) + 1;
   const int a1 = (axis + 1) % 3;
   const int a2 = (axis + 2) % 3;
+  std::vector<std::vector<Index>> bricks_of(model.node_x.size());
+  for (Index e = 0; e < model.bricks.size(); ++e) {
+    for (const Index n : model.bricks.nodes[static_cast<std::size_t>(e)]) bricks_of[static_cast<std::size_t>(n)].push_back(e);
+  }
   for (int q = 0; q < b.cells[static_cast<std::size_t>(a2)]; ++q) {
     for (int p = 0; p < b.cells[static_cast<std::size_t>(a1)]; ++p) {
       const auto corner = [&](int dp, int dq) {
@@ -174,7 +178,7 @@ Index Scene::surface(const Block& b, int axis, bool high) {
       model::Segment seg;
       seg.nodes = high ? std::array<Index, 4>{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}
                        : std::array<Index, 4>{corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)};
-      for (Index e = 0; e < model.bricks.size(); ++e) {
+      for (const Index e : bricks_of[static_cast<std::size_t>(seg.nodes[0])]) {
         const auto& nodes = model.bricks.nodes[static_cast<std::size_t>(e)];
         int found = 0;
         for (const Index n : seg.nodes) {

@@ -3,7 +3,8 @@
 //   scrub_ms          median over jumps to all states in random order, each from the wish to the complete picture; every
 //                     state is decoded on the way
 //   scrub_again_ms    the same when all states are decoded
-//   graphics_cpu_ms   processor time of the browser's graphics process per state, mean over all of those jumps (Chromium only): it
+//   whole_ms          median for the whole picture, as it is drawn where a jump comes to rest (coarse: jumps are drawn coarser)
+//   graphics_cpu_ms   processor time of the browser's graphics process per jump, mean (Chromium only): it
 //                     depends less on what else the machine does
 import { missing, launch, openReport } from "./browser.mjs";
 
@@ -53,10 +54,21 @@ const result = await page.evaluate(async () => {
     first_picture_ms: Math.round(window.abutFirstPicture),
     scrub_ms: Math.round(median(first)),
     scrub_again_ms: Math.round(median(again)),
+    coarse: abut.picture.view.drawnCoarse,
     slowest_ms: Math.round(Math.max(...first, ...again)),
     jumps: first.length + again.length,
   };
 });
 if (graphics) result.graphics_cpu_ms = Math.round((1000 * ((await graphicsSeconds()) - before)) / result.jumps);
+result.whole_ms = await page.evaluate(() => {
+  const { view } = window.abut.picture;
+  const times = Array.from({ length: 15 }, () => {
+    const start = performance.now();
+    view.drawNow(true);
+    view.wait();
+    return performance.now() - start;
+  });
+  return Math.round(times.sort((a, b) => a - b)[7]);
+});
 await browser.close();
 console.log(JSON.stringify({ ...result, problems }));

@@ -95,6 +95,7 @@ export class App {
     if (this.picture) {
       await new Promise((resolve) => setTimeout(resolve, 30));
       this.picture.view.makeEdges();
+      this.picture.view.makeCoarse();
       if (this.picture.view.faces.count <= 6000) this.state.set({ mesh: true });
       void this.picture.prefetch();
     }
@@ -296,7 +297,7 @@ export class App {
   private savePicture(): void {
     const view = this.picture?.view;
     if (!view) return;
-    view.drawNow();
+    view.drawNow(true);
     this.canvas.toBlob((blob) => {
       if (!blob) return;
       const link = h("a", {

@@ -79,6 +79,7 @@ class Plot {
     if (width < 60 || height < 60) return;
     if (this.plot) {
       this.plot.setSize({ width, height: this.roomFor(height) });
+      queueMicrotask(() => this.mark()); // after uPlot has drawn, which empties its legend
       return;
     }
     this.make(width, height);

@@ -74,6 +74,21 @@ export function triangles(faces: Faces, vertices: Vertices, visible: (face: numb
   return out.subarray(0, n);
 }
 
+/** Nodes of the visible faces, each once. */
+export function nodesOf(faces: Faces, nodes: number, visible: (face: number) => boolean): number[] {
+  const seen = new Uint8Array(nodes);
+  const out: number[] = [];
+  for (let f = 0; f < faces.count; f++) {
+    if (!visible(f)) continue;
+    for (let k = 0; k < 4; k++) {
+      const i = corner(faces, f, k);
+      if (!seen[i]) out.push(i);
+      seen[i] = 1;
+    }
+  }
+  return out;
+}
+
 /** Every edge once: two nodes, and the faces on it (-1: none; of more than two the first two count, `many` says so). */
 export interface Edges {
   count: number;

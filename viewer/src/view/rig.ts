@@ -94,6 +94,12 @@ export class Rig {
     this.moved();
   }
 
+  /** Pixels of the window that a length where the camera looks at takes. */
+  get pixelsPerLength(): number {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return this.canvas.clientHeight / (2 * distance * Math.tan(((this.camera.fov / 2) * Math.PI) / 180));
+  }
+
   /** Looks from this direction at where it looked before. */
   look(direction: Vec): void {
     this.camera.position.copy(this.controls.target).add(new Vector3(...direction).normalize());

@@ -14,14 +14,34 @@ import {
   WebGLRenderer,
   type RawShaderMaterial,
 } from "three";
-import { TOP, type ChunkInfo } from "../data/chunk";
+import type { ChunkInfo } from "../data/chunk";
 import type { Range } from "../data/fields";
+import { fillIndex, movedPoints } from "./buffers";
+import { cluster, coarseTriangles, type Clusters } from "./coarse";
 import { makeArrows, type ArrowGroup } from "./arrows";
 import type { ColorMap } from "./colormap";
 import { FaceMaterials, displacement, plainMaterial, type Coloring } from "./materials";
-import { assignVertices, edgeLines, faceNormals, featureEdges, findEdges, triangles, type Edges, type Faces, type Vertices } from "./mesh";
+import {
+  assignVertices,
+  edgeLines,
+  faceNormals,
+  featureEdges,
+  findEdges,
+  nodesOf,
+  triangles,
+  type Edges,
+  type Faces,
+  type Vertices,
+} from "./mesh";
 import { pick, type Hit, type Vec } from "./pick";
 import { Rig } from "./rig";
+
+/** Milliseconds: a picture that takes longer is drawn coarser while it moves. */
+const SLOW = 25;
+/** Milliseconds without a change after which the picture rests. */
+const REST = 160;
+/** Pixels: cells that are larger are not drawn as one. */
+const VISIBLE = 7;
 
 export class View {
   readonly renderer: WebGLRenderer;
@@ -31,6 +51,7 @@ export class View {
   private readonly scene = new Scene();
   private readonly frameAttribute: BufferAttribute;
   private readonly faceGeometry = new BufferGeometry();
+  private readonly coarseGeometry = new BufferGeometry();
   private readonly outlineGeometry = new BufferGeometry();
   private readonly meshGeometry = new BufferGeometry();
   private readonly markFaces = new BufferGeometry();
@@ -39,7 +60,7 @@ export class View {
   private readonly selectedNode = new BufferGeometry();
   private readonly arrows: LineSegments[] = [];
   private readonly objects: Record<
-    "faces" | "outline" | "mesh" | "markFaces" | "markNodes" | "selectedFace" | "selectedNode",
+    "faces" | "coarse" | "outline" | "mesh" | "markFaces" | "markNodes" | "selectedFace" | "selectedNode",
     Mesh | LineSegments | Points
   >;
   private readonly displacement = displacement(1);
@@ -52,9 +73,14 @@ export class View {
   private displacementInfo: ChunkInfo | undefined;
   private moved: Float32Array | undefined;
   private meshShown = false;
+  private clusters: Clusters | undefined;
+  private moving = false;
+  private rest: ReturnType<typeof setTimeout> | undefined;
   /** Called after each picture. */
   onDraw: (() => void) | undefined;
   drawCount = 0;
+  /** Whether the last picture is one of those for while it moves. */
+  drawnCoarse = false;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -73,19 +99,20 @@ export class View {
     this.renderer.setPixelRatio(large ? 1 : Math.min(2, window.devicePixelRatio));
 
     const count = this.vertices.node.length;
-    const base = new Float32Array(3 * count);
+    const rest = new Float32Array(3 * count);
     const colors = new Uint8Array(4 * count);
     for (let v = 0; v < count; v++) {
       const n = this.vertices.node[v]!;
-      for (let c = 0; c < 3; c++) base[3 * v + c] = points[c * nodes + n]!;
+      for (let c = 0; c < 3; c++) rest[3 * v + c] = points[c * nodes + n]!;
       const f = this.vertices.faceOf[v]!;
       if (f >= 0) colors.set(parts[partOfFace[f]!]!, 4 * v);
     }
-    const position = new BufferAttribute(base, 3);
+    const position = new BufferAttribute(rest, 3);
     this.frameAttribute = new BufferAttribute(new Uint16Array(4 * count), 4, true);
     this.frameAttribute.setUsage(35048); // DYNAMIC_DRAW
     const shared = [
       this.faceGeometry,
+      this.coarseGeometry,
       this.outlineGeometry,
       this.meshGeometry,
       this.markFaces,
@@ -98,13 +125,15 @@ export class View {
       geometry.setAttribute("frame", this.frameAttribute);
       geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
     }
-    this.faceGeometry.setAttribute("base", new BufferAttribute(colors, 4, true));
+    const base = new BufferAttribute(colors, 4, true);
+    for (const geometry of [this.faceGeometry, this.coarseGeometry]) geometry.setAttribute("base", base);
 
     const plain = (color: Vector4, options: Parameters<typeof plainMaterial>[2] = {}) => plainMaterial(this.displacement, color, options);
     const ratio = this.renderer.getPixelRatio();
     const magenta = new Vector4(0.91, 0.12, 0.55, 0.82);
     this.objects = {
       faces: new Mesh(this.faceGeometry, this.faceMaterials.of(undefined)),
+      coarse: new Mesh(this.coarseGeometry, this.faceMaterials.of(undefined)),
       mesh: new LineSegments(this.meshGeometry, plain(new Vector4(0, 0, 0, 0.22))),
       outline: new LineSegments(this.outlineGeometry, plain(new Vector4(0, 0, 0, 0.75), { forward: 1e-6 })),
       markFaces: new Mesh(this.markFaces, plain(magenta, { forward: 2e-5 })),
@@ -117,27 +146,19 @@ export class View {
       object.renderOrder = order;
       this.scene.add(object);
     });
-    for (const empty of [this.markFaces, this.markNodes, this.selectedFace, this.selectedNode, this.meshGeometry, this.outlineGeometry])
-      this.setIndex(empty, new Uint32Array());
+    for (const empty of [
+      this.coarseGeometry,
+      this.markFaces,
+      this.markNodes,
+      this.selectedFace,
+      this.selectedNode,
+      this.meshGeometry,
+      this.outlineGeometry,
+    ])
+      fillIndex(empty, new Uint32Array());
     this.rebuildFaces();
-    this.rig = new Rig(canvas, () => this.draw());
+    this.rig = new Rig(canvas, () => this.move());
     this.look([-0.75, -1, 0.62]);
-  }
-
-  /** Index buffers grow and are filled again: three.js keeps the GPU's copy of a buffer as long as its geometry. */
-  private setIndex(geometry: BufferGeometry, index: Uint32Array): void {
-    const old = geometry.index;
-    if (old && old.array.length >= index.length) {
-      (old.array as Uint32Array).set(index);
-      old.needsUpdate = true;
-    } else {
-      const room = new Uint32Array(Math.max(12, Math.ceil(1.3 * index.length)));
-      room.set(index);
-      const attribute = new BufferAttribute(room, 1);
-      attribute.setUsage(35048);
-      geometry.setIndex(attribute);
-    }
-    geometry.setDrawRange(0, index.length);
   }
 
   /** Edges are looked for when the first picture stands. */
@@ -148,17 +169,34 @@ export class View {
     this.draw();
   }
 
+  /** Measures how long the whole picture takes; from then on, one that takes long is drawn coarser while it moves. */
+  makeCoarse(): void {
+    const start = performance.now();
+    this.drawNow();
+    this.wait();
+    if (performance.now() - start < SLOW) return;
+    const clusters = cluster(this.faces, this.vertices, this.points, this.partOfFace);
+    if (clusters.cell === 0) return;
+    this.clusters = clusters;
+    this.rebuildFaces();
+  }
+
   private rebuildFaces(): void {
-    this.setIndex(
+    fillIndex(
       this.faceGeometry,
       triangles(this.faces, this.vertices, (f) => this.visibleFace[f] === 1),
     );
+    if (this.clusters)
+      fillIndex(
+        this.coarseGeometry,
+        coarseTriangles(this.faces, this.vertices, this.clusters, (f) => this.visibleFace[f] === 1),
+      );
   }
   private rebuildEdges(): void {
     if (!this.edges) return;
     const visible = (f: number) => this.visibleFace[f] === 1;
-    this.setIndex(this.outlineGeometry, edgeLines(this.edges, this.outline, visible));
-    this.setIndex(this.meshGeometry, this.meshShown ? edgeLines(this.edges, undefined, visible) : new Uint32Array());
+    fillIndex(this.outlineGeometry, edgeLines(this.edges, this.outline, visible));
+    fillIndex(this.meshGeometry, this.meshShown ? edgeLines(this.edges, undefined, visible) : new Uint32Array());
   }
 
   /** @param visible per face, 1: drawn */
@@ -205,7 +243,7 @@ export class View {
         to[i + 2] = displacement[2 * nodes + n]!;
       }
     }
-    this.objects.faces.material = this.faceMaterials.of(coloring);
+    this.objects.faces.material = this.objects.coarse.material = this.faceMaterials.of(coloring);
     if (coloring) {
       const q = coloring.quanta;
       if (coloring.on === "element") {
@@ -218,7 +256,7 @@ export class View {
       }
     }
     this.frameAttribute.needsUpdate = true;
-    this.draw();
+    this.move();
   }
 
   setShown(shown: Range): void {
@@ -235,18 +273,7 @@ export class View {
   /** Positions as drawn, planar. */
   positions(): Float32Array {
     if (this.moved) return this.moved;
-    const out = new Float32Array(this.points);
-    const data = this.displacementData;
-    const info = this.displacementInfo;
-    if (data && info?.low && info.high) {
-      const n = this.points.length / 3;
-      const scale = this.displacement.uDeform.value;
-      for (let c = 0; c < 3; c++) {
-        const low = scale * info.low[c]!;
-        const unit = (scale * (info.high[c]! - info.low[c]!)) / TOP;
-        for (let i = c * n; i < (c + 1) * n; i++) out[i] = out[i]! + low + unit * data[i]!;
-      }
-    }
+    const out = movedPoints(this.points, this.displacementData, this.displacementInfo, this.displacement.uDeform.value);
     this.moved = out;
     return out;
   }
@@ -270,18 +297,18 @@ export class View {
       index.push(s[0]!, s[1]!, s[2]!);
       if (s[3] !== undefined && s[3] !== s[2]) index.push(s[0]!, s[2]!, s[3]);
     }
-    this.setIndex(this.markFaces, Uint32Array.from(index));
-    this.setIndex(this.markNodes, Uint32Array.from(nodes));
+    fillIndex(this.markFaces, Uint32Array.from(index));
+    fillIndex(this.markNodes, Uint32Array.from(nodes));
     this.draw();
   }
 
   select(face: number | undefined, node: number | undefined): void {
     const corners = face === undefined ? [] : [0, 1, 2, 3].map((k) => this.faces.corners[k * this.faces.count + face]!);
-    this.setIndex(
+    fillIndex(
       this.selectedFace,
       Uint32Array.from(face === undefined ? [] : [corners[0]!, corners[1]!, corners[2]!, corners[0]!, corners[2]!, corners[3]!]),
     );
-    this.setIndex(this.selectedNode, Uint32Array.from(node === undefined ? [] : [node]));
+    fillIndex(this.selectedNode, Uint32Array.from(node === undefined ? [] : [node]));
     this.draw();
   }
 
@@ -317,25 +344,13 @@ export class View {
     this.draw();
   }
 
-  /** Nodes of the visible faces. */
-  private visibleNodes(): number[] {
-    const seen = new Uint8Array(this.points.length / 3);
-    const out: number[] = [];
-    for (let f = 0; f < this.faces.count; f++) {
-      if (!this.visibleFace[f]) continue;
-      for (let k = 0; k < 4; k++) {
-        const i = this.faces.corners[k * this.faces.count + f]!;
-        if (!seen[i]) out.push(i);
-        seen[i] = 1;
-      }
-    }
-    return out;
-  }
-
   /** Brings the visible faces, or some nodes with something around them, into the frame. */
   fit(nodes?: readonly number[]): void {
     const positions = this.positions();
-    this.rig.fit({ positions, nodes: this.visibleNodes() }, nodes && nodes.length > 0 ? { positions, nodes } : undefined);
+    this.rig.fit(
+      { positions, nodes: nodesOf(this.faces, positions.length / 3, (f) => this.visibleFace[f] === 1) },
+      nodes && nodes.length > 0 ? { positions, nodes } : undefined,
+    );
   }
   look(direction: Vec): void {
     this.rig.look(direction);
@@ -352,9 +367,26 @@ export class View {
     this.drawRequested = true;
     requestAnimationFrame(() => this.drawNow());
   }
-  drawNow(): void {
+  /** Draws what will be followed by more. */
+  private move(): void {
+    if (this.clusters) {
+      this.moving = true;
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => {
+        this.moving = false;
+        this.draw();
+      }, REST);
+    }
+    this.draw();
+  }
+  /** @param whole with every element, even while the picture moves */
+  drawNow(whole = false): void {
     this.drawRequested = false;
     this.rig.updateDepth();
+    const coarse = this.moving && !whole && this.clusters!.cell * this.rig.pixelsPerLength < VISIBLE;
+    this.objects.coarse.visible = coarse;
+    this.objects.faces.visible = this.objects.mesh.visible = !coarse;
+    this.drawnCoarse = coarse;
     this.renderer.render(this.scene, this.rig.camera);
     this.drawCount++;
     this.onDraw?.();
