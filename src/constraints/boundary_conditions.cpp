@@ -82,12 +82,13 @@ void BoundaryConditions::apply(state::State& state) {
   meter_.after(state);
 }
 
-BoundaryConditions::Held BoundaryConditions::held(Index node, bool rotation) const {
+BoundaryConditions::Held BoundaryConditions::held(Index node, bool rotation, unsigned without) const {
   Held result;
   const auto i = static_cast<std::size_t>(node);
   for (Index e = first_[i]; e < first_[i + 1]; ++e) {
     const Entry& entry = entries_[static_cast<std::size_t>(e)];
-    const unsigned bits = rotation ? held_bits(entry) >> 3U : held_bits(entry) & 7U;
+    const unsigned all = held_bits(entry) & ~without;
+    const unsigned bits = rotation ? all >> 3U : all & 7U;
     for (int k = 0; k < 3 && result.count < 3; ++k) {
       if ((bits >> static_cast<unsigned>(k) & 1U) == 0U) continue;
       const Vec3 axis = axes_->axis(entry.skew, k);

@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "abut/contact/mobility.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "constraints/axes.hpp"
+#include "constraints/boundary_conditions.hpp"
 #include "core/profile.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
 namespace abut::constraints {
-
-class BoundaryConditions;
 
 /// Sums of one body: force and moment about the main node of the secondary nodes (without the main node's own), this cycle
 /// and integrated over time (times h_-); rotation: integral of the main node's angular velocity.
@@ -81,9 +81,9 @@ class RigidBodies {
   /// J b, J the body's inertia tensor at t^n.
   [[nodiscard]] Vec3 times_inertia(Index body, const Vec3& b) const;
 
-  /// Velocity gained by `node` along unit `direction` per unit impulse at the node along it: 1/m of a free node,
-  /// 1/M + (r x d) . J^-1 (r x d) for a node of an active body.
-  [[nodiscard]] double inverse_mass(const state::State& state, Index node, const Vec3& direction) const;
+  /// What an impulse does to an active body whose main node is held in the given directions.
+  [[nodiscard]] contact::Mobility mobility(const state::State& state, Index body, const BoundaryConditions::Held& translation,
+                                           const BoundaryConditions::Held& rotation) const;
 
  private:
   struct Body {

@@ -4,6 +4,7 @@
 
 #include "contact/enforce/account.hpp"
 #include "contact/enforce/coefficient.hpp"
+#include "contact/enforce/effective_mass.hpp"
 #include "contact/enforce/pass.hpp"
 #include "contact/enforce/switching.hpp"
 
@@ -27,14 +28,11 @@ Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const
 }
 
 double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
-  if (host.mass.empty()) return 0.0;
   const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  const auto inverse = [&host](Index n) { return host.mass[at(n)] > 0.0 ? 1.0 / host.mass[at(n)] : 0.0; };
-  double sum = inverse(held.nodes()[at(i)]);
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (touch.weight[c] != 0.0) sum += touch.weight[c] * touch.weight[c] * inverse(surface.nodes()[at(corner[c])]);
-  }
-  return sum;
+  EffectiveMass pair(host);
+  pair.add(held.nodes()[at(i)], 1.0);
+  for (std::size_t c = 0; c < 4; ++c) pair.add(surface.nodes()[at(corner[c])], -touch.weight[c]);
+  return pair.inverse(touch.normal);
 }
 
 void Pass::look_ahead(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i) const {
