@@ -115,6 +115,14 @@ Vec3 BoundaryConditions::Held::free_part(Vec3 b) const {
   return b;
 }
 
+contact::Mobility BoundaryConditions::Held::mobility(double mass) const {
+  contact::Mobility m;
+  if (count == 3 || mass <= 0.0) return m;
+  m.a = {1.0 / mass, 1.0 / mass, 1.0 / mass, 0.0, 0.0, 0.0};
+  for (int k = 0; k < count; ++k) m.add(-1.0 / mass, axis[static_cast<std::size_t>(k)]);
+  return m;
+}
+
 void BoundaryConditions::release(Index node, int direction) {
   auto& bits = released_[static_cast<std::size_t>(node)];
   bits = static_cast<std::uint8_t>(bits | 1U << static_cast<unsigned>(direction));

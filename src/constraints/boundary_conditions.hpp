@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/contact/mobility.hpp"
 #include "constraints/axes.hpp"
 #include "constraints/work_meter.hpp"
 #include "core/profile.hpp"
@@ -43,6 +44,8 @@ class BoundaryConditions {
     int count = 0;
     void add(Vec3 direction);  ///< keeps what a unit vector adds to the span
     [[nodiscard]] Vec3 free_part(Vec3 b) const;
+    /// Of a mass that is held in these directions.
+    [[nodiscard]] contact::Mobility mobility(double mass) const;
   };
   /// @param without  directions of the node's own card (bit k: direction k of 0..5) that count as released whether they are or not
   [[nodiscard]] Held held(Index node, bool rotation, unsigned without = 0) const;

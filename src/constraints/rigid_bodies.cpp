@@ -423,24 +423,16 @@ double RigidBodies::ledger_work(const state::State& state) {
 
 Vec3 RigidBodies::times_inertia(Index body, const Vec3& b) const { return apply_tensor(bodies_[at(body)].inertia, b); }
 
-contact::Mobility RigidBodies::mobility(const state::State& state, Index body, const BoundaryConditions::Held& translation,
-                                        const BoundaryConditions::Held& rotation) const {
+RigidBodies::Response RigidBodies::response(const state::State& state, Index body, const BoundaryConditions::Held& translation,
+                                            const BoundaryConditions::Held& rotation) const {
   const std::size_t main = at(model_->rigid_bodies[at(body)].main);
-  contact::Mobility m;
-  m.centre = state.x[main];
-  const double inverse = state.mass[main] > 0.0 ? 1.0 / state.mass[main] : 0.0;
-  std::array<Vec3, 3> turned;
+  Response r{translation.mobility(state.mass[main]), {}, state.x[main]};
   for (int k = 0; k < 3; ++k) {
     Vec3 unit{};
     unit[k] = 1.0;
-    m.translation.add(inverse, unit);
-    turned[static_cast<std::size_t>(k)] = solve_free(bodies_[at(body)].inertia, unit, rotation);
+    r.rotation[static_cast<std::size_t>(k)] = solve_free(bodies_[at(body)].inertia, unit, rotation);
   }
-  if (translation.count == 3) m.translation = {};
-  for (int k = 0; k < translation.count && translation.count < 3; ++k) m.translation.add(-inverse, translation.axis[static_cast<std::size_t>(k)]);
-  const auto& [x, y, z] = turned;
-  m.rotation.c = {x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
-  return m;
+  return r;
 }
 
 }  // namespace abut::constraints

@@ -81,9 +81,16 @@ class RigidBodies {
   /// J b, J the body's inertia tensor at t^n.
   [[nodiscard]] Vec3 times_inertia(Index body, const Vec3& b) const;
 
-  /// What an impulse does to an active body whose main node is held in the given directions.
-  [[nodiscard]] contact::Mobility mobility(const state::State& state, Index body, const BoundaryConditions::Held& translation,
-                                           const BoundaryConditions::Held& rotation) const;
+  /// Answer of an active body, its main node held in the given directions, to an impulse j at x: velocity T j of the main node (1/M where
+  /// it is free), angular velocity R (r x j) with r = x - centre (J^-1 where it is free).
+  struct Response {
+    contact::Mobility translation;
+    std::array<Vec3, 3> rotation{};  ///< columns of R
+    Vec3 centre;
+    [[nodiscard]] Vec3 turn(const Vec3& moment) const { return moment.x * rotation[0] + moment.y * rotation[1] + moment.z * rotation[2]; }
+  };
+  [[nodiscard]] Response response(const state::State& state, Index body, const BoundaryConditions::Held& translation,
+                                  const BoundaryConditions::Held& rotation) const;
 
  private:
   struct Body {

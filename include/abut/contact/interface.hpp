@@ -53,8 +53,7 @@ struct HostState {
   /// host that leaves it 0 says that its step is constant.
   double dt_bar_old = 0.0;
   /// #N or empty: entry of `mobility` for nodes that are held or belong to a rigid body, no_index for those that move freely with
-  /// their `mass`. Several nodes may share an entry: they then move as one body. Effective masses of pairs are made with it; `mass`
-  /// stays what TYPE7's dampers take.
+  /// their `mass`. Effective masses of pairs are made with it; `mass` stays what TYPE7's dampers take.
   std::span<const Index> constrained = {};
   std::span<const Mobility> mobility = {};
 };

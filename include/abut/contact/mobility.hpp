@@ -1,4 +1,4 @@
-// What an impulse does to nodes that do not move as free points: nodes held in some or all directions, nodes of rigid bodies.
+// How nodes answer to impulses that do not move as free points: held in some or all directions, or part of a rigid body.
 #pragma once
 
 #include <array>
@@ -8,34 +8,23 @@
 
 namespace abut::contact {
 
-/// Symmetric 3 by 3 tensor: xx, yy, zz, xy, yz, zx.
-struct SymmetricTensor {
-  std::array<double, 6> c{};
+/// Symmetric 3 by 3 tensor A (xx, yy, zz, xy, yz, zx), 1/mass: an impulse j changes the node's velocity by A j.
+/// A node of mass m held in directions e_k (unit, normal to each other): (1 - sum e_k e_k^T)/m. Zero: it cannot move.
+/// A node of a rigid body: alone in contact 1/M - [r] J^-1 [r] with [r] the matrix of r x. Springs that act on one body together each
+/// move its share of the mass: where the host knows the contact stiffness K_i on the body's nodes, sum K/K_i times as much, the second r
+/// taken to the point sum K_i r_i / sum K.
+struct Mobility {
+  std::array<double, 6> a{};
 
   [[nodiscard]] Vec3 operator*(const Vec3& b) const {
-    return {c[0] * b.x + c[3] * b.y + c[5] * b.z, c[3] * b.x + c[1] * b.y + c[4] * b.z, c[5] * b.x + c[4] * b.y + c[2] * b.z};
+    return {a[0] * b.x + a[3] * b.y + a[5] * b.z, a[3] * b.x + a[1] * b.y + a[4] * b.z, a[5] * b.x + a[4] * b.y + a[2] * b.z};
   }
   /// Adds s e e^T.
   void add(double s, const Vec3& e) {
     const std::array<double, 6> products{e.x * e.x, e.y * e.y, e.z * e.z, e.x * e.y, e.y * e.z, e.z * e.x};
-    for (std::size_t i = 0; i < 6; ++i) c[i] += s * products[i];
+    for (std::size_t i = 0; i < 6; ++i) a[i] += s * products[i];
   }
-};
-
-/// An impulse j at x changes the velocity there by  T j + (R (r x j)) x r,  r = x - centre.
-/// A node of mass m held in directions e_k (unit, normal to each other): T = (1 - sum e_k e_k^T)/m, R = 0. A rigid body: T = 1/M,
-/// R = inverse of its inertia tensor about `centre`, both reduced to the directions that are free. Zero: what it stands for cannot move.
-struct Mobility {
-  SymmetricTensor translation;  ///< T, 1/mass
-  SymmetricTensor rotation;     ///< R, 1/(mass length^2)
-  Vec3 centre;
-
-  [[nodiscard]] bool immobile() const {
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (translation.c[i] != 0.0 || rotation.c[i] != 0.0) return false;
-    }
-    return true;
-  }
+  [[nodiscard]] bool immobile() const { return a == std::array<double, 6>{}; }
 };
 
 }  // namespace abut::contact

@@ -23,19 +23,17 @@ constexpr double exhausted = 1e-10;
 BothSides::Opening BothSides::opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const {
   const auto& corner = surface_.surface().local()[at(facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
-  EffectiveMass pair(host);
   Opening m;
   const std::size_t self = host_of(held_own_[at(node)]);
   m.velocity = host.v[self];
-  pair.add(static_cast<Index>(self), 1.0);
+  m.inverse_mass = inverse_mass_of(host, static_cast<Index>(self), c.normal);
   for (std::size_t i = 0; i < 4; ++i) {
     if (c.weight[i] == 0.0) continue;
     const std::size_t to = host_of(surface_own_[at(corner[i])]);
     m.velocity -= c.weight[i] * host.v[to];
-    pair.add(static_cast<Index>(to), -c.weight[i]);
+    m.inverse_mass += c.weight[i] * c.weight[i] * inverse_mass_of(host, static_cast<Index>(to), c.normal);
   }
   m.rate = dot(m.velocity, c.normal);
-  m.inverse_mass = pair.inverse(c.normal);
   return m;
 }
 

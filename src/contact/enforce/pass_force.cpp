@@ -29,10 +29,12 @@ Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const
 
 double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
   const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  EffectiveMass pair(host);
-  pair.add(held.nodes()[at(i)], 1.0);
-  for (std::size_t c = 0; c < 4; ++c) pair.add(surface.nodes()[at(corner[c])], -touch.weight[c]);
-  return pair.inverse(touch.normal);
+  double sum = inverse_mass_of(host, held.nodes()[at(i)], touch.normal);
+  for (std::size_t c = 0; c < 4; ++c) {
+    const double w = touch.weight[c];
+    if (w != 0.0) sum += w * w * inverse_mass_of(host, surface.nodes()[at(corner[c])], touch.normal);
+  }
+  return sum;
 }
 
 void Pass::look_ahead(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i) const {
