@@ -57,6 +57,34 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
 
+double Pass::stepped_without_facet(const HostState& host, const Side& held, const Side& surface, Index i) const {
+  const NodeState& before = state_[at(i)];
+  if (before.held == 0 || before.reckoned == 0 || host.dt <= 0.0) return 0.0;
+  const double rate = dot(velocity_over(host, held, surface, i, before.last), before.normal);
+  return made_by_changing_step(before.force, step_before(host.dt, host.dt_bar_old), host.dt, before.rate, rate);
+}
+
+double Pass::strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
+                         const Kinematics& motion) const {
+  if (!touch.measure.closest.beyond) return 0.0;
+  const Vec3 r = held.x()[at(i)] - touch.point;
+  const double outside = norm(r - dot(r, touch.normal) * touch.normal);
+  if (host.dt > 0.0 && outside > 1.5 * step_growth * host.dt * norm(motion.tangential_velocity)) return 0.0;
+  const Patch patch = surface.patch(touch.facet);
+  const std::size_t corners = patch.triangle ? 3 : 4;
+  double side = 1e300;
+  for (std::size_t k = 0; k < corners; ++k) side = std::min(side, squared_norm(patch.x[(k + 1) % corners] - patch.x[k]));
+  const double width = (1.0 - border_flat) * border_strip * std::sqrt(side);
+  double spread = 0.0;
+  for (const double w : touch.weight) spread += std::abs(w);
+  if (width <= 0.0) return 0.0;
+  // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node
+  // enters within a step takes and gives other energies than it holds by up to h^2 K/m, and no first force corrects it as the normal one
+  // is.
+  return 16.0 * 8.0 * 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * law_.potential(touch.penetration) /
+         (width * width);
+}
+
 void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                        GroupSums& sums) {
   PassTotals& totals = sums.totals;
@@ -64,6 +92,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   NodeState& after = next_[at(i)];
   const Rules& rules = options_.rules;
   if (!touch.known) {
+    totals.stepped += stepped_without_facet(host, held, surface, i);
     if (!closest() || touch.far || !rules.limits_step || host.dt <= 0.0) return;
     look_ahead(host, held, surface, held_loads, i);
     return;
@@ -109,6 +138,14 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       held_loads.node[at(i)].own_stiffness += tangent;
       held_loads.loaded[at(i)] |= SideLoads::now;
       reaction.stiffness = tangent;
+    }
+    if (touch.pair_open && !touch.contact && penetration > 0.0 && after.ignored == 0) {
+      const double tangent = strip_ahead(host, held, surface, i, touch, motion);
+      if (tangent > 0.0) {
+        held_loads.node[at(i)].own_stiffness += tangent;
+        held_loads.loaded[at(i)] |= SideLoads::now;
+        reaction.stiffness = std::max(reaction.stiffness, tangent);
+      }
     }
     if (law_.stiffens() && closing > 0.0) {
       const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);

@@ -408,7 +408,7 @@ TEST(RigidBody, ResponseToAnImpulse) {
                                               {Six{true, true, true}, Six{true, true, true}}};
   for (const auto& [translation, rotation] : cases) {
     auto m = body_of_points();
-    m.boundary_conditions.push_back({1, no_index, translation, rotation, {m.rigid_bodies[0].main}});
+    m.boundary_conditions.push_back({1, translation, rotation, no_index, {m.rigid_bodies[0].main}});
     Rig rig(m);
     set_masses(rig.s);
     rig.start();
