@@ -69,7 +69,11 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   if (!touch.measure.closest.beyond) return 0.0;
   const Vec3 r = held.x()[at(i)] - touch.point;
   const double outside = norm(r - dot(r, touch.normal) * touch.normal);
-  if (host.dt > 0.0 && outside > 1.5 * step_growth * host.dt * norm(motion.tangential_velocity)) return 0.0;
+  const double way = 1.5 * step_growth * host.dt * norm(motion.tangential_velocity);
+  if (host.dt > 0.0 && outside > way) return 0.0;
+  // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
+  const double reach = std::max(options_.gap, largest_depth_);
+  if (norm(r) > (state_[at(i)].in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
   const Patch patch = surface.patch(touch.facet);
   const std::size_t corners = patch.triangle ? 3 : 4;
   double side = 1e300;
