@@ -66,27 +66,33 @@ double Pass::stepped_without_facet(const HostState& host, const Side& held, cons
 
 double Pass::strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
                          const Kinematics& motion) const {
-  if (!touch.measure.closest.beyond) return 0.0;
+  const ClosestPoint& end = touch.measure.closest;
+  if (!end.beyond || host.dt <= 0.0) return 0.0;
+  const Patch patch = surface.patch(touch.facet);
+  // Seen along the facet: what the node is behind the gap, and how far outside the strip's end. (touch.distance is that to the end itself.)
+  const Vec3 n = normal_at(patch, end.s, end.t);
   const Vec3 r = held.x()[at(i)] - touch.point;
-  const double outside = norm(r - dot(r, touch.normal) * touch.normal);
-  const double way = 1.5 * step_growth * host.dt * norm(motion.tangential_velocity);
-  if (host.dt > 0.0 && outside > way) return 0.0;
+  const double distance = dot(r, n);
+  const double penetration = touch.gap - distance;
+  if (penetration <= 0.0 || -distance > depth_[at(touch.facet)]) return 0.0;
+  const Vec3 v = motion.rate * touch.normal + motion.tangential_velocity;
+  const double way = 1.5 * step_growth * host.dt * norm(v - dot(v, n) * n);
+  if (norm(r - distance * n) > way) return 0.0;
   // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
   const double reach = std::max(options_.gap, largest_depth_);
   if (norm(r) > (state_[at(i)].in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
-  const Patch patch = surface.patch(touch.facet);
   const std::size_t corners = patch.triangle ? 3 : 4;
   double side = 1e300;
   for (std::size_t k = 0; k < corners; ++k) side = std::min(side, squared_norm(patch.x[(k + 1) % corners] - patch.x[k]));
   const double width = (1.0 - border_flat) * border_strip * std::sqrt(side);
+  if (width <= 0.0) return 0.0;
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);
-  if (width <= 0.0) return 0.0;
   // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node
   // enters within a step takes and gives other energies than it holds by up to h^2 K/m, and no first force corrects it as the normal one
   // is.
-  return 16.0 * 8.0 * 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * law_.potential(touch.penetration) /
-         (width * width);
+  const double curvature = 16.0 * 8.0 * law_.potential(penetration) / (width * width);
+  return 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * curvature;
 }
 
 void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
@@ -143,7 +149,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       held_loads.loaded[at(i)] |= SideLoads::now;
       reaction.stiffness = tangent;
     }
-    if (touch.pair_open && !touch.contact && penetration > 0.0 && after.ignored == 0) {
+    if (touch.pair_open && !touch.contact && after.ignored == 0) {
       const double tangent = strip_ahead(host, held, surface, i, touch, motion);
       if (tangent > 0.0) {
         held_loads.node[at(i)].own_stiffness += tangent;
