@@ -4,9 +4,10 @@
 usage: make_finding_decks.py DIR          write DIR/NAME/NAME_0000.rad and NAME_0001.rad
        make_finding_decks.py --check DIR  compare instead of writing; exit status 1 if a file differs
 
-Every deck is two square steel plates over each other (kg, m, s); tests/decks/check_findings.py says which finding each provokes
+Every deck is two square steel plates over each other, or two blocks (kg, m, s); tests/decks/check_findings.py says which finding each provokes
 and which other deck is its twin. Standard library only.
 """
+import math
 import sys
 
 import generated
@@ -17,10 +18,20 @@ SIDE, DISTANCE, GAP = 0.1, 1e-3, 9e-4
 
 def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=True, upper_down=True, flipped=(), repeated=(), shift=0.0,
            stretch=1.0, lower_young=STEEL["young"], thickness=(1e-3, 1e-3), speed=0.0, stfac=0, start=0.0, warp=0.0, valley=0.0, extra=None, end=1e-5, spin=0.0, slide=0.0, raised=0.0,
-           loose=False):
+           loose=False, shared=False, line=False, branch=False, twisted=False):
     """Plate 1 below looks up, plate 2 above looks down, unless told otherwise."""
     mesh = Mesh()
     low, low_nodes = mesh.plate(lambda u, w: (stretch * SIDE * u, SIDE * w, valley * abs(u - 0.5) + (raised if u > 0.7 else 0.0)), lower, lower)
+    added = []
+    if branch:
+        foot = [low_nodes[2][1], low_nodes[2][2]]
+        added.append([*foot, *(mesh.node(x, y, -SIDE / 4) for x, y, _ in (mesh.nodes[node - 1] for node in reversed(foot)))])
+    if twisted:
+        mesh = Mesh()
+        low_nodes = [[mesh.node(*band(i / 12, j / 2)) for j in range(3)] for i in range(12)]
+        added = [[low_nodes[11][j], low_nodes[0][2 - j], low_nodes[0][1 - j], low_nodes[11][j + 1]] for j in range(2)]
+        low = [mesh.element(list(face)) for face in quads(low_nodes)]
+    low += [mesh.element(face) for face in added]
     high, high_nodes = mesh.plate(lambda u, w: (shift + stretch * SIDE * u, SIDE * w, distance + (warp if u == w == 0.25 else 0.0)), upper, upper)
     deck = Deck(name, name.replace("_", " "), [story])
     deck.elastic(1, "steel", STEEL["density"], lower_young, STEEL["poisson"])
@@ -36,8 +47,11 @@ def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=T
     faces += [faces[k] for k in repeated]
     if loose:
         faces.append([low_nodes[i][j] for i, j in ((0, 0), (2, 0), (2, 2), (0, 2))])
+    faces += added
+    if line:
+        faces.append([low_nodes[0][0], low_nodes[1][0], low_nodes[2][0], low_nodes[2][0]])
     deck.surface_of_faces(1, "lower", faces)
-    deck.surface_of_faces(2, "upper", quads(high_nodes, facing_down=upper_down))
+    deck.surface_of_faces(2, "upper", quads(high_nodes, facing_down=upper_down) + ([faces[0][::-1]] if shared else []))
     deck.contact(1, "plate on plate", 1, 2, friction=0, gap=gap)
     if stfac:
         card = deck.lines.index("#              Stfac                Fric                 Gap              Tstart               Tstop") + 1
@@ -55,6 +69,31 @@ def plates(name, story, lower=4, upper=4, distance=DISTANCE, gap=GAP, lower_up=T
         extra(deck)
     deck.history(1, "INTER", [1])
     return deck.write(end=end, rows=10, frames=1)
+
+
+def band(u, w):
+    """A Moebius band: half a turn on the way round."""
+    angle, across = 2 * math.pi * u, 0.3 * SIDE * (w - 0.5)
+    radius = SIDE / 2 + across * math.cos(angle / 2)
+    return SIDE / 2 + radius * math.cos(angle), SIDE / 2 + radius * math.sin(angle), across * math.sin(angle / 2) - 0.2 * SIDE
+
+
+def blocks(name, story, overlap):
+    """Two blocks of bricks, one on the other."""
+    mesh = Mesh()
+    low, low_nodes = mesh.block((0.0, 0.0, -SIDE / 2), (SIDE, SIDE, SIDE / 2), (4, 4, 2))
+    high, high_nodes = mesh.block((0.1 * SIDE, 0.1 * SIDE, -overlap), (0.8 * SIDE, 0.8 * SIDE, SIDE / 2), (4, 4, 2))
+    deck = Deck(name, name.replace("_", " "), [story])
+    deck.elastic(1, **STEEL)
+    deck.solid_property(1, "bricks")
+    deck.nodes(mesh)
+    deck.part(1, "lower", "BRICK", 1, 1, low)
+    deck.part(2, "upper", "BRICK", 1, 1, high)
+    deck.surface_of_faces(1, "lower", quads(low_nodes[-1]))
+    deck.surface_of_faces(2, "upper", quads(high_nodes[0], facing_down=True))
+    deck.contact(1, "block on block", 1, 2, friction=0, gap=0)
+    deck.history(1, "INTER", [1])
+    return deck.write(end=1e-5, rows=10, frames=1)
 
 
 def wall(deck):
@@ -102,13 +141,21 @@ DECKS = {
     "bound_by_body": dict(story="The upper plate is a rigid body.", extra=body),
     "turned_away": dict(story="The upper plate turns over; its surface then looks up.", distance=0.054, gap=0.03, spin=2e3, end=2.2e-3, stfac=1e-9,
                         start=1.4e-3),
+    "shared_nodes": dict(story="One segment of the lower plate is in the upper surface too.", shared=True),
+    "degenerate_facets": dict(story="One segment of the lower surface has its nodes on one line.", line=True),
+    "junctions": dict(story="A rib stands on the back of the lower plate, and is in its surface.", branch=True),
+    "one_sided": dict(story="The lower surface is a Moebius band.", twisted=True),
+}
+BLOCKS = {
+    "overlap": dict(story="Two blocks whose meshes overlap by a tenth of a brick.", overlap=2.5e-3),
+    "on_top": dict(story="Two blocks that touch.", overlap=0.0),
 }
 
 
 def main():
     folder, check = generated.arguments(__doc__)
-    different = sum(generated.write_or_check(folder / name / file, text, check)
-                    for name, options in DECKS.items() for file, text in plates(name, **options).items())
+    decks = [plates(name, **options) for name, options in DECKS.items()] + [blocks(name, **options) for name, options in BLOCKS.items()]
+    different = sum(generated.write_or_check(folder / file.rpartition("_")[0] / file, text, check) for deck in decks for file, text in deck.items())
     return 1 if different else 0
 
 

@@ -82,12 +82,13 @@ void BoundaryConditions::apply(state::State& state) {
   meter_.after(state);
 }
 
-BoundaryConditions::Held BoundaryConditions::held(Index node, bool rotation) const {
+BoundaryConditions::Held BoundaryConditions::held(Index node, bool rotation, unsigned without) const {
   Held result;
   const auto i = static_cast<std::size_t>(node);
   for (Index e = first_[i]; e < first_[i + 1]; ++e) {
     const Entry& entry = entries_[static_cast<std::size_t>(e)];
-    const unsigned bits = rotation ? held_bits(entry) >> 3U : held_bits(entry) & 7U;
+    const unsigned all = held_bits(entry) & ~without;
+    const unsigned bits = rotation ? all >> 3U : all & 7U;
     for (int k = 0; k < 3 && result.count < 3; ++k) {
       if ((bits >> static_cast<unsigned>(k) & 1U) == 0U) continue;
       const Vec3 axis = axes_->axis(entry.skew, k);
@@ -112,6 +113,14 @@ Vec3 BoundaryConditions::Held::free_part(Vec3 b) const {
   if (count == 3) return {};
   for (int k = 0; k < count; ++k) remove(b, axis[static_cast<std::size_t>(k)]);
   return b;
+}
+
+contact::Mobility BoundaryConditions::Held::mobility(double mass) const {
+  contact::Mobility m;
+  if (count == 3 || mass <= 0.0) return m;
+  m.a = {1.0 / mass, 1.0 / mass, 1.0 / mass, 0.0, 0.0, 0.0};
+  for (int k = 0; k < count; ++k) m.add(-1.0 / mass, axis[static_cast<std::size_t>(k)]);
+  return m;
 }
 
 void BoundaryConditions::release(Index node, int direction) {

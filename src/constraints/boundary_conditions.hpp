@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "abut/contact/mobility.hpp"
 #include "constraints/axes.hpp"
 #include "constraints/work_meter.hpp"
 #include "core/profile.hpp"
@@ -30,6 +32,9 @@ class BoundaryConditions {
   void restore(Index node, int direction);
   void restore_all();
 
+  /// Nodes with a card, sorted.
+  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }
+
   /// True when a card holds this direction of the node and it is not released.
   [[nodiscard]] bool fixed(Index node, int direction) const;
 
@@ -39,8 +44,11 @@ class BoundaryConditions {
     int count = 0;
     void add(Vec3 direction);  ///< keeps what a unit vector adds to the span
     [[nodiscard]] Vec3 free_part(Vec3 b) const;
+    /// Of a mass that is held in these directions.
+    [[nodiscard]] contact::Mobility mobility(double mass) const;
   };
-  [[nodiscard]] Held held(Index node, bool rotation) const;
+  /// @param without  directions of the node's own card (bit k: direction k of 0..5) that count as released whether they are or not
+  [[nodiscard]] Held held(Index node, bool rotation, unsigned without = 0) const;
 
   /// Step 25: exact discrete work of both applications (negative: kinetic energy taken).
   double ledger_work(const state::State& state) { return meter_.settle(state); }

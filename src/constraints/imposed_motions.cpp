@@ -31,6 +31,10 @@ ImposedMotions::ImposedMotions(const model::Model& model, const Curves& curves, 
   }
 }
 
+bool ImposedMotions::acts(const Dof& dof, const model::ImposedMotion& motion, double t) const {
+  return t >= motion.t_start && t <= motion.t_stop && curves_->on(motion.sensor, t) && bodies_->body_of(dof.node) == no_index;
+}
+
 void ImposedMotions::apply(state::State& state) {
   using Kind = model::ImposedMotion::Kind;
   const state::StepTimes& times = state.times;
@@ -43,7 +47,7 @@ void ImposedMotions::apply(state::State& state) {
     const model::ImposedMotion& motion = model_->imposed_motions[m];
     dof.old_power = dof.power;
     dof.power = 0.0;
-    dof.active = t >= motion.t_start && t <= motion.t_stop && curves_->on(motion.sensor, t) && bodies_->body_of(dof.node) == no_index;
+    dof.active = acts(dof, motion, t);
     const bool rotation = motion.direction >= 3;
     const Vec3 axis = axes_->axis(motion.skew, motion.direction % 3);
     Vec3& acceleration = rotation ? state.alpha[i] : state.a[i];

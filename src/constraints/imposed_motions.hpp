@@ -39,6 +39,15 @@ class ImposedMotions {
   /// Adds the directions in which `node` is moved in this cycle to those that are held. @param rotation rotations, else translations
   void add_imposed(Index node, bool rotation, BoundaryConditions::Held& held) const;
 
+  /// Calls take(node, rotation, axis) for every component that is imposed at time t.
+  template <class Take>
+  void for_each_imposed(double t, const Take& take) const {
+    for (const Dof& dof : dofs_) {
+      const model::ImposedMotion& motion = model_->imposed_motions[static_cast<std::size_t>(dof.motion)];
+      if (acts(dof, motion, t)) take(dof.node, motion.direction >= 3, axes_->axis(motion.skew, motion.direction % 3));
+    }
+  }
+
   /// Reaction of motion i on each of its nodes in this cycle, m (a - a_free) along the axis (force or moment).
   [[nodiscard]] double reaction(Index motion) const { return reaction_[static_cast<std::size_t>(motion)]; }
 
@@ -50,6 +59,8 @@ class ImposedMotions {
     double old_power = 0.0;  ///< of the previous cycle
     bool active = false;
   };
+  [[nodiscard]] bool acts(const Dof& dof, const model::ImposedMotion& motion, double t) const;
+
   const model::Model* model_;
   const Curves* curves_;
   const Axes* axes_;

@@ -256,4 +256,16 @@ void RigidBodies::persist(state::Archive& a) {
   ++revision_;
 }
 
+RigidBodies::Answer RigidBodies::answer(const state::State& state, Index body, const BoundaryConditions::Held& translation,
+                                        const BoundaryConditions::Held& rotation) const {
+  const std::size_t main = at(model_->rigid_bodies[at(body)].main);
+  Answer r{translation.mobility(state.mass[main]), {}, state.x[main]};
+  for (int k = 0; k < 3; ++k) {
+    Vec3 unit{};
+    unit[k] = 1.0;
+    r.rotation[static_cast<std::size_t>(k)] = solve_free(bodies_[at(body)].inertia, unit, rotation);
+  }
+  return r;
+}
+
 }  // namespace abut::constraints

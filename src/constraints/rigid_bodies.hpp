@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/contact/mobility.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "constraints/axes.hpp"
@@ -103,6 +104,17 @@ class RigidBodies {
   [[nodiscard]] Vec3 next_velocity(const state::State& state, const Carrier& carrier) const;
   /// Steps 18 to 23: accelerations of the carrier that an impulse on the point adds over h_bar.
   void push(state::State& state, const Carrier& carrier, const Vec3& impulse) const;
+
+  /// Answer of an active body, its main node held in the given directions, to an impulse j at x: velocity T j of the main node (1/M where
+  /// it is free), angular velocity R (r x j) with r = x - centre (J^-1 where it is free).
+  struct Answer {
+    contact::Mobility translation;
+    std::array<Vec3, 3> rotation{};  ///< columns of R
+    Vec3 centre;
+    [[nodiscard]] Vec3 turn(const Vec3& moment) const { return moment.x * rotation[0] + moment.y * rotation[1] + moment.z * rotation[2]; }
+  };
+  [[nodiscard]] Answer answer(const state::State& state, Index body, const BoundaryConditions::Held& translation,
+                              const BoundaryConditions::Held& rotation) const;
 
  private:
   struct Body {

@@ -115,7 +115,9 @@ void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
   record_contacts();
   const state::StepTimes& t = state_.times;
-  const contact::HostState host{state_.x, state_.v, state_.mass, t.t, t.h_minus, t.h_bar_old};
+  contact_mobility_.update(state_, boundary_, imposed_, bodies_, contact_stiffness_);
+  const contact::HostState host{
+      state_.x, state_.v, state_.mass, t.t, t.h_minus, t.h_bar_old, contact_mobility_.constrained(), contact_mobility_.mobility()};
   {
     const Timer timer(*this, p_search);
     for (init::RunInterface& i : interfaces_) i.contact.search(host);

@@ -18,6 +18,7 @@
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
 #include "cycle/contact_area.hpp"
+#include "cycle/contact_mobility.hpp"
 #include "cycle/ledger.hpp"
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
@@ -110,6 +111,7 @@ class Cycle {
   std::vector<bool> recording_;                            // #recordings: begun
   std::vector<double> contact_stiffness_;                  // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
+  ContactMobility contact_mobility_;
   ContactArea contact_facets_;
   std::vector<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;

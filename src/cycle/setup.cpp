@@ -43,6 +43,8 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   walls_.initialise(state_);
   bodies_.initialise(state_);
   if (options.interfaces) interfaces_ = init::make_interfaces(model, options.profile, options.contacts, state_);
+  // The reference program's contact knows plain masses only.
+  if (!options.profile.reference_contact) contact_mobility_ = ContactMobility(model, interfaces_, boundary_);
   contact_facets_ = ContactArea(model, interfaces_);
 
   std::vector<std::uint8_t> free_translation(n, 1);

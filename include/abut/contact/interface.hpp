@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "abut/contact/both_sides.hpp"
+#include "abut/contact/mobility.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/contact/surface.hpp"
 #include "abut/types.hpp"
@@ -51,6 +52,10 @@ struct HostState {
   /// (h_- + the one before)/2. First and last forces and accounts of pairs need it, as do reference impulses and incremental friction; a
   /// host that leaves it 0 says that its step is constant.
   double dt_bar_old = 0.0;
+  /// #N or empty: entry of `mobility` for nodes that are held or belong to a rigid body, no_index for those that move freely with
+  /// their `mass`. Effective masses of pairs are made with it; `mass` stays what TYPE7's dampers take.
+  std::span<const Index> constrained = {};
+  std::span<const Mobility> mobility = {};
 };
 
 class Interface {
@@ -86,7 +91,8 @@ class Interface {
   void set_executor(Executor executor);
 
   /// Once per step, before evaluate, with the same positions.
-  /// @throws std::invalid_argument when a span of the host is too short for the interface's nodes (all three verbs' spans)
+  /// @throws std::invalid_argument when a span of the host is too short for the interface's nodes (all three verbs' spans), or
+  ///         `constrained` names an entry that does not exist
   void search(const HostState& host);
   /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added

@@ -33,6 +33,14 @@ struct Interface::Made {
     check(host.x.size(), "x");
     check(host.v.size(), "v");
     check(host.mass.size(), "mass", true);
+    check(host.constrained.size(), "constrained", true);
+    if (host.constrained.empty()) return;
+    for (const Index n : recipe.hosted) {
+      const Index entry = host.constrained[static_cast<std::size_t>(n)];
+      if (entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size())) continue;
+      throw std::invalid_argument("contact: constrained names entry " + std::to_string(entry) + " of " +
+                                  std::to_string(host.mobility.size()));
+    }
   }
   [[nodiscard]] std::vector<std::byte> history() const {
     HistoryWriter out(fingerprint);

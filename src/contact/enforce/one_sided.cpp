@@ -222,7 +222,7 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
     total[0] = pass_[0].evaluate(host, side_[0], side_[1], loads_[0], loads_[1]);
     if (two_passes_) total[1] = pass_[1].evaluate(host, side_[1], side_[0], loads_[1], loads_[0]);
   } else {
-    for (std::size_t k = 0; k < pass_.size(); ++k) total[k] = pass_[k].rest();
+    for (std::size_t k = 0; k < pass_.size(); ++k) total[k] = pass_[k].rest(host, side_[k], side_[1 - k]);
   }
 
   for (std::size_t k = 0; k < 2; ++k) {

@@ -22,6 +22,21 @@ Directions free_directions(const ClosestPoint& c, bool triangle) {
   return {1, {{{c.number % 2 == 0 ? 1.0 : 0.0, c.number % 2 == 0 ? 0.0 : 1.0}, {}}}};
 }
 
+// How much wider strips are, in lengths of the facet, at x = depth over its length: x, but with a slope that starts and ends without a jump
+// (a jump of the slope is one of the normal force).
+struct Wider {
+  double value = 0.0, slope = 0.0;
+};
+constexpr double starts = 0.1, ends = 0.4;  // lengths over which the slope rises to 1 and falls to 0
+Wider wider_at(double x) {
+  constexpr double last = border_widening + 0.5 * (starts + ends);
+  if (x <= 0.0) return {};
+  if (x < starts) return {0.5 * x * x / starts, x / starts};
+  if (x < last - ends) return {x - 0.5 * starts, 1.0};
+  if (x < last) return {border_widening - 0.5 * (last - x) * (last - x) / ends, (last - x) / ends};
+  return {border_widening, 0.0};
+}
+
 }  // namespace
 
 PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, double gap, double scale,
@@ -32,9 +47,9 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   const std::array<Index, 4>& corner = surface.surface().local()[at(m.facet)];
   const std::size_t corners = patch.triangle ? 3 : 4;
   const double p = gap - m.distance;
-  const double wider = widening * std::max(-m.distance, 0.0);
-  const bool widens = wider > 0.0 && wider < border_widening;
-  const Taper t = taper(patch, c.s, c.t, std::min(wider, border_widening));
+  const Wider wider = wider_at(-widening * m.distance);
+  const double widens = wider.slope * widening;  // dw/dP
+  const Taper t = taper(patch, c.s, c.t, wider.value);
   if (c.beyond || t.value <= 0.0) return result;
 
   double k1 = 0.0;
@@ -62,7 +77,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
 
   const double phi = law.potential(p);
   result.stiffness = t.value * pair;
-  result.magnitude = result.stiffness * law.force(p) + (widens ? pair * phi * t.dw * widening : 0.0);
+  result.magnitude = result.stiffness * law.force(p) + pair * phi * t.dw * widens;
   result.potential = result.stiffness * phi;
   result.on_node = result.magnitude * m.normal;
 
@@ -103,7 +118,11 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
       constexpr double fall = (1.0 - border_flat) * border_strip;
       const double width = fall * std::sqrt(patch.triangle ? a11 : 4.0 * a11);
       if (width > 0.0) result.extra_tangent += pair * 8.0 * phi / (width * width);
-      if (widens) result.extra_tangent += pair * (2.0 * 1.54 * law.force(p) + 8.0 * phi * widening / fall) * widening / fall;
+      if (wider.value > 0.0) {
+        result.extra_tangent +=
+            pair * (2.0 * 1.54 * law.force(p) * widens + 8.0 * phi * widens * widens / fall + 1.54 * phi * widening * widening / starts) /
+            fall;
+      }
     }
   }
   if (c.feature != Feature::face && m.distance < 0.0) {

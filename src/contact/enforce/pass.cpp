@@ -318,7 +318,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   return totals;
 }
 
-PassTotals Pass::rest() {
+PassTotals Pass::rest(const HostState& host, const Side& held, const Side& surface) {
   committed_ = false;
   PassTotals totals;
   stale_ = true;
@@ -326,6 +326,7 @@ PassTotals Pass::rest() {
   for (std::size_t i = 0; i < state_.size(); ++i) {
     const NodeState& before = state_[i];
     next_[i] = before;
+    totals.stepped += stepped_without_facet(host, held, surface, static_cast<Index>(i));
     if (before.tangential_stiffness > 0.0) totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
     if (options_.rules.reference_friction) continue;  // frozen outside the window (7.3.1)
     next_[i] = {};

@@ -100,7 +100,7 @@ class Pass {
   void search(const Side& held, const Side& surface, const Motion& motion);
   PassTotals evaluate(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, SideLoads& surface_loads);
   /// Outside the time window: contacts end.
-  PassTotals rest();
+  PassTotals rest(const HostState& host, const Side& held, const Side& surface);
   void commit();
 
   /// Merges opening, penetration and friction state of the held nodes into #N values of the host. After evaluate().
@@ -216,6 +216,11 @@ class Pass {
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
   /// 1/m of a node with its facet; 0: unknown
   [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
+  /// What leap-frog made by a changed step under the last force of a node that has no facet any more (eroded, moved away, contact over).
+  [[nodiscard]] double stepped_without_facet(const HostState& host, const Side& held, const Side& surface, Index i) const;
+  /// Stiffness of the strip of a free border that a node behind the gap, beyond the strip's end, may reach in the coming step; 0: none.
+  [[nodiscard]] double strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
+                                   const Kinematics& motion) const;
   void limit_depths();
   [[nodiscard]] const NodeState& now(Index i) const { return (committed_ ? state_ : next_)[at(i)]; }
   /// Signed distance of a held node to the other side, whatever it touches; NaN when nothing is near.

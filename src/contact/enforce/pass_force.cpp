@@ -4,6 +4,7 @@
 
 #include "contact/enforce/account.hpp"
 #include "contact/enforce/coefficient.hpp"
+#include "contact/enforce/effective_mass.hpp"
 #include "contact/enforce/pass.hpp"
 #include "contact/enforce/switching.hpp"
 
@@ -27,12 +28,11 @@ Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const
 }
 
 double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
-  if (host.mass.empty()) return 0.0;
   const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  const auto inverse = [&host](Index n) { return host.mass[at(n)] > 0.0 ? 1.0 / host.mass[at(n)] : 0.0; };
-  double sum = inverse(held.nodes()[at(i)]);
+  double sum = inverse_mass_of(host, held.nodes()[at(i)], touch.normal);
   for (std::size_t c = 0; c < 4; ++c) {
-    if (touch.weight[c] != 0.0) sum += touch.weight[c] * touch.weight[c] * inverse(surface.nodes()[at(corner[c])]);
+    const double w = touch.weight[c];
+    if (w != 0.0) sum += w * w * inverse_mass_of(host, surface.nodes()[at(corner[c])], touch.normal);
   }
   return sum;
 }
@@ -57,6 +57,44 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
 
+double Pass::stepped_without_facet(const HostState& host, const Side& held, const Side& surface, Index i) const {
+  const NodeState& before = state_[at(i)];
+  if (before.held == 0 || before.reckoned == 0 || host.dt <= 0.0) return 0.0;
+  const double rate = dot(velocity_over(host, held, surface, i, before.last), before.normal);
+  return made_by_changing_step(before.force, step_before(host.dt, host.dt_bar_old), host.dt, before.rate, rate);
+}
+
+double Pass::strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
+                         const Kinematics& motion) const {
+  const ClosestPoint& end = touch.measure.closest;
+  if (!end.beyond || host.dt <= 0.0) return 0.0;
+  const Patch patch = surface.patch(touch.facet);
+  // Seen along the facet: what the node is behind the gap, and how far outside the strip's end. (touch.distance is that to the end itself.)
+  const Vec3 n = normal_at(patch, end.s, end.t);
+  const Vec3 r = held.x()[at(i)] - touch.point;
+  const double distance = dot(r, n);
+  const double penetration = touch.gap - distance;
+  if (penetration <= 0.0 || -distance > depth_[at(touch.facet)]) return 0.0;
+  const Vec3 v = motion.rate * touch.normal + motion.tangential_velocity;
+  const double way = 1.5 * step_growth * host.dt * norm(v - dot(v, n) * n);
+  if (norm(r - distance * n) > way) return 0.0;
+  // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
+  const double reach = std::max(options_.gap, largest_depth_);
+  if (norm(r) > (state_[at(i)].in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
+  const std::size_t corners = patch.triangle ? 3 : 4;
+  double side = 1e300;
+  for (std::size_t k = 0; k < corners; ++k) side = std::min(side, squared_norm(patch.x[(k + 1) % corners] - patch.x[k]));
+  const double width = (1.0 - border_flat) * border_strip * std::sqrt(side);
+  if (width <= 0.0) return 0.0;
+  double spread = 0.0;
+  for (const double w : touch.weight) spread += std::abs(w);
+  // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node
+  // enters within a step takes and gives other energies than it holds by up to h^2 K/m, and no first force corrects it as the normal one
+  // is.
+  const double curvature = 16.0 * 8.0 * law_.potential(penetration) / (width * width);
+  return 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * curvature;
+}
+
 void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                        GroupSums& sums) {
   PassTotals& totals = sums.totals;
@@ -64,6 +102,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   NodeState& after = next_[at(i)];
   const Rules& rules = options_.rules;
   if (!touch.known) {
+    totals.stepped += stepped_without_facet(host, held, surface, i);
     if (!closest() || touch.far || !rules.limits_step || host.dt <= 0.0) return;
     look_ahead(host, held, surface, held_loads, i);
     return;
@@ -109,6 +148,14 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       held_loads.node[at(i)].own_stiffness += tangent;
       held_loads.loaded[at(i)] |= SideLoads::now;
       reaction.stiffness = tangent;
+    }
+    if (touch.pair_open && !touch.contact && after.ignored == 0) {
+      const double tangent = strip_ahead(host, held, surface, i, touch, motion);
+      if (tangent > 0.0) {
+        held_loads.node[at(i)].own_stiffness += tangent;
+        held_loads.loaded[at(i)] |= SideLoads::now;
+        reaction.stiffness = std::max(reaction.stiffness, tangent);
+      }
     }
     if (law_.stiffens() && closing > 0.0) {
       const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);

@@ -1,7 +1,9 @@
 // Ordinary held nodes of a pass: into batches for held_kernel(), and out of them.
+#include <algorithm>
 #include <cmath>
 
 #include "contact/enforce/account.hpp"
+#include "contact/enforce/effective_mass.hpp"
 #include "contact/enforce/pass.hpp"
 
 namespace abut::contact {
@@ -38,6 +40,11 @@ bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
   if (corner[2] == corner[3]) return false;
+  if (!scene.host.constrained.empty()) {
+    const auto asks = [&scene](Index n) { return plain_mass(scene.host, n) < 0.0; };
+    const std::array<Index, 4>& host_corner = scene.surface.surface().facets()[at(before.facet)].node;
+    if (asks(scene.held.nodes()[at(i)]) || std::any_of(host_corner.begin(), host_corner.end(), asks)) return false;
+  }
   return !options_.rubs() || (before.anchored != 0 && before.anchor.facet == before.facet);
 }
 
@@ -50,12 +57,12 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   const Index host_node = scene.held.nodes()[at(i)];
   batch.node[k] = 3 * i;
   batch.node_v[k] = 3 * host_node;
-  batch.mass[4][k] = scene.host.mass[at(host_node)];
+  batch.mass[4][k] = plain_mass(scene.host, host_node);
   batch.node_stiffness[k] = scene.held.node_stiffness(i);
   for (std::size_t c = 0; c < 4; ++c) {
     batch.corner[c][k] = 3 * corner[c];
     batch.corner_v[c][k] = 3 * host_corner[c];
-    batch.mass[c][k] = scene.host.mass[at(host_corner[c])];
+    batch.mass[c][k] = plain_mass(scene.host, host_corner[c]);
     batch.corner_stiffness[c][k] = surface.corner_stiffness(corner[c]);
     batch.anchor[c][k] = before.anchor.weight[c];
     batch.last[c][k] = before.last.weight[c];

@@ -61,11 +61,13 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
   const double stiffness_before = before.anchored != 0 ? before.tangential_stiffness : stiffness;
   const double stored_before = 0.5 * stiffness_before * squared_norm(elastic);
   if (stiffness > stiffness_before) elastic = (stiffness_before / stiffness) * elastic;
+  // Work of the mean force over the way, less what is stored more than before.
+  const auto lost = [&](const Vec3& now) {
+    const double work = 0.5 * dot(force_before + stiffness * now, increment);
+    return std::max(0.0, work - (0.5 * stiffness * squared_norm(now) - stored_before));
+  };
   SlipResult result = slip(elastic, force_before, increment, stiffness, limit);
-  if (stiffness != stiffness_before) {
-    const double work = 0.5 * dot(force_before + stiffness * result.elastic, increment);
-    result.dissipated = std::max(0.0, work - (0.5 * stiffness * squared_norm(result.elastic) - stored_before));
-  }
+  if (stiffness != stiffness_before) result.dissipated = lost(result.elastic);
   if (options_.filter.acts()) {
     // The filter holds part of the trial slip back: that part slides.
     const double a = options_.filter.weight(host.dt);
@@ -73,7 +75,7 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
     filtered -= dot(filtered, touch.normal) * touch.normal;
     const double size = stiffness * norm(filtered);
     result.elastic = size > limit ? (limit / size) * filtered : filtered;
-    result.dissipated = std::max(0.0, 0.5 * dot(force_before + stiffness * result.elastic, (elastic + increment) - result.elastic));
+    result.dissipated = lost(result.elastic);
   }
   assert(result.dissipated >= 0.0);
   totals.dissipated += result.dissipated;

@@ -78,11 +78,17 @@ void Recorder::history(std::span<const std::byte> blob) {
 
 void Recorder::state(const HostState& host) {
   for (const double t : {host.time, host.dt, host.dt_bar_old}) payload_.put(t);
-  const std::array<std::uint8_t, 3> changed{gather(host.x, hosted_, x_), gather(host.v, hosted_, v_), gather(host.mass, hosted_, mass_)};
+  const bool moved = host.mobility.size() != mobility_.size() ||
+                     (!mobility_.empty() && std::memcmp(host.mobility.data(), mobility_.data(), mobility_.size() * sizeof(Mobility)) != 0);
+  if (moved) mobility_.assign(host.mobility.begin(), host.mobility.end());
+  const std::array<std::uint8_t, 5> changed{gather(host.x, hosted_, x_), gather(host.v, hosted_, v_), gather(host.mass, hosted_, mass_),
+                                            gather(host.constrained, hosted_, constrained_), moved};
   payload_.put(changed);
   if (changed[0] != 0) payload_.put_all(x_);
   if (changed[1] != 0) payload_.put_all(v_);
   if (changed[2] != 0) payload_.put_all(mass_);
+  if (changed[3] != 0) payload_.put_all(constrained_);
+  if (changed[4] != 0) payload_.put_all(mobility_);
 }
 
 void Recorder::search(const HostState& host) {

@@ -137,6 +137,8 @@ class Player {
   std::vector<Index> hosted_;
   std::vector<Vec3> x_, v_, force_;
   std::vector<double> mass_, stiffness_;
+  std::vector<Index> constrained_;
+  std::vector<Mobility> mobility_;
   HostState host_;
   StepResult result_;
 
@@ -144,13 +146,17 @@ class Player {
     in.get(host_.time);
     in.get(host_.dt);
     in.get(host_.dt_bar_old);
-    const auto changed = in.next<std::array<std::uint8_t, 3>>();
+    const auto changed = in.next<std::array<std::uint8_t, 5>>();
     if (changed[0] != 0) in.get_any(x_);
     if (changed[1] != 0) in.get_any(v_);
     if (changed[2] != 0) in.get_any(mass_);
+    if (changed[3] != 0) in.get_any(constrained_);
+    if (changed[4] != 0) in.get_any(mobility_);
     host_.x = x_;
     host_.v = v_;
     host_.mass = mass_;
+    host_.constrained = constrained_;
+    host_.mobility = mobility_;
   }
 };
 

@@ -528,6 +528,31 @@ TEST(RigidBody, AddedMassEntersMassAndTensor) {
   EXPECT_LT(norm(angular_momentum(rig) - spin - 20.0 * h * torque), 2e-3 * norm(20.0 * h * torque));
 }
 
+// An impulse on a node of a body changes that node's velocity as the body's answer says, whatever holds the main node.
+TEST(RigidBody, AnswerToAnImpulse) {
+  using Six = std::array<bool, 3>;
+  const std::vector<std::array<Six, 2>> cases{{Six{}, Six{}},
+                                              {Six{true, false, false}, Six{}},
+                                              {Six{true, true, false}, Six{false, false, true}},
+                                              {Six{true, true, true}, Six{true, false, true}},
+                                              {Six{true, true, true}, Six{true, true, true}}};
+  for (const auto& [translation, rotation] : cases) {
+    auto m = body_of_points();
+    m.boundary_conditions.push_back({1, translation, rotation, no_index, {m.rigid_bodies[0].main}});
+    Rig rig(m);
+    set_masses(rig.s);
+    rig.start();
+    const Index main = m.rigid_bodies[0].main;
+    const auto response = rig.bodies.answer(rig.s, 0, rig.conditions.held(main, false), rig.conditions.held(main, true));
+    const Vec3 d = normalized(Vec3{1, 2, -1});
+    const Vec3 arm = rig.s.x[4] - response.centre;
+    const Vec3 expected = response.translation * d + cross(response.turn(cross(arm, d)), arm);
+    rig.forces = [&](state::State& s) { s.f_contact[4] = d; };
+    rig.step(1e-6);
+    EXPECT_LT(norm(rig.s.v[4] / 0.5e-6 - expected), 1e-6 * (norm(expected) + 1e-3));
+  }
+}
+
 TEST(RigidBody, RefusesToTurnMoreThanARadianPerStep) {
   Rig rig(body_of_points());
   set_masses(rig.s);

@@ -175,5 +175,38 @@ TEST(ChangingStep, pressed_node_gains_no_speed) {
   }
 }
 
+// A held node whose facet erodes, or whose contact dies, in the step in which the step falls to a tenth: CX is what the contact made, all
+// of it.
+TEST(ChangingStep, made_is_booked_when_a_facet_goes) {
+  for (const bool dies : {false, true}) {
+    Host host;
+    const auto facets = grid(host, 1, 1, -1, 1, -1, 1, flat);
+    const auto n = static_cast<std::size_t>(host.add({0.1, 0.2, gap + 1e-3}, 1.0, {0, 0, -0.05}));
+    Options o;
+    o.gap = gap;
+    o.rules.law = Law::constant;
+    o.stiffness_scale = 1.0;
+    constexpr double h = 0.2;
+    constexpr int last = 6;
+    if (dies) o.death = (last - 0.95) * h;
+    Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {2.0}, Surface(facets), o);
+    set_stiffness(i, 1, 1, 2.0);
+    double kinetic_sum = 0.0, first = 0.0;  // leap-frog's own, v.v'/2
+    for (int step = 0; step < last + 3; ++step) {
+      const Vec3 v = host.v[n];
+      if (step == last && !dies) {
+        const std::vector<std::uint8_t> gone{0};
+        i.set_surface(1, {.active = gone});
+      }
+      host.step(i, step >= last - 1 ? 0.1 * h : h);
+      kinetic_sum = 0.5 * dot(v, host.v[n]);
+      if (step == 0) first = kinetic_sum;
+    }
+    EXPECT_EQ(host.last.in_contact, 0);
+    EXPECT_GT(std::abs(kinetic_sum - first), 0.1 * first);
+    EXPECT_NEAR(host.last.made, kinetic_sum - first, 1e-12 * first) << dies;
+  }
+}
+
 }  // namespace
 }  // namespace abut::contact

@@ -111,5 +111,33 @@ TEST(FrictionSteps, every_direction_is_alike_on_a_warped_facet) {
   EXPECT_LT(across, 1e-10);
 }
 
+// A node rubs over a change of stiffness of 4:1, with a filter and without: all that its friction takes is in FW. (One way: where the way
+// turns, a filtered force still points where it did, and what it gives then is in CX.)
+TEST(FrictionSteps, filter_books_its_work_where_the_stiffness_changes) {
+  for (const bool filtered : {false, true}) {
+    Host host;
+    const auto facets = grid(host, 4, 1, -2, 2, -1, 1, test::flat);
+    const auto n = static_cast<std::size_t>(host.add({-1.5, 0.1, -0.05}, 1.0));
+    Options o;
+    o.friction = 0.2;
+    o.stiffness_scale = 1.0;
+    o.rules.switch_correction = false;  // imposed motion
+    if (filtered) o.filter.share = 0.3;
+    Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), o);
+    const std::vector<double> k{1.0, 1.0, 4.0, 4.0};
+    i.set_surface(1, {k, {}, {}});
+    host.contact(i);
+    for (int step = 1; step <= 1000; ++step) {
+      std::vector<Vec3> x = host.x;
+      x[n].x = -1.5 + 3.0 * step / 1000;
+      host.place(i, x);
+    }
+    const double made = host.last.made / host.last.friction_work;
+    std::printf("  filter %d: FW %.4g, CX %.2e of it\n", filtered ? 1 : 0, host.last.friction_work, made);
+    EXPECT_GT(host.last.friction_work, 0.0);
+    EXPECT_LT(std::abs(made), 0.002);
+  }
+}
+
 }  // namespace
 }  // namespace abut::contact

@@ -1,0 +1,32 @@
+// Effective mass of a pair: what a unit impulse between a node and the point of a facet does to their opening speed.
+//
+//   1/m = sum w_i^2 (1/m_i, or n.A_i n where the host gives a mobility A_i),   w = 1 for the node, -H_i for the corners.
+//
+// A node that is held along n counts as infinitely heavy. A_i of a rigid body's nodes as in mobility.hpp: for one pair alone the sum over
+// the corners is then 1/M + (r x n).J^-1 (r x n) at the facet's point, for K_i = H_i k.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "abut/contact/interface.hpp"
+
+namespace abut::contact {
+
+/// 1/m of a node along unit `n`; 0: unknown, or it cannot move.
+[[nodiscard]] inline double inverse_mass_of(const HostState& host, Index node, const Vec3& n) {
+  if (host.mass.empty()) return 0.0;
+  const auto i = static_cast<std::size_t>(node);
+  if (host.constrained.empty() || host.constrained[i] == no_index) return host.mass[i] > 0.0 ? 1.0 / host.mass[i] : 0.0;
+  // Below zero: the other springs of its body press this node in.
+  return std::max(0.0, dot(n, host.mobility[static_cast<std::size_t>(host.constrained[i])] * n));
+}
+
+/// Mass of a node that is free or cannot move at all (0); below zero: neither, its mobility must be asked.
+[[nodiscard]] inline double plain_mass(const HostState& host, Index node) {
+  const auto i = static_cast<std::size_t>(node);
+  if (host.constrained.empty() || host.constrained[i] == no_index) return host.mass[i];
+  return host.mobility[static_cast<std::size_t>(host.constrained[i])].immobile() ? 0.0 : -1.0;
+}
+
+}  // namespace abut::contact
