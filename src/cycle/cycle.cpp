@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cycle/node_kernels.hpp"
-#include "parallel/ordered_sum.hpp"
 
 namespace abut::cycle {
 
@@ -176,13 +175,8 @@ void Cycle::assemble() {
   args.rotational_stiffness = state_.rotational_stiffness.data();
   args.f = vectors(state_.f, totals_wanted_);
   args.m = vectors(state_.m, totals_wanted_ && rotations_);
-  // Masses and stiffnesses are final here unless somebody reads totals: then the step's limits are looked at on the way.
-  const bool look = !totals_wanted_ && time_step_->nodes_count();
-  if (look) time_step_->expect(state_.mass.size());
-  parallel::for_leaves(state_.mass.size(), pool_, [&](std::size_t leaf, std::size_t begin, std::size_t end) {
-    node_kernels().assemble(args, begin, end);
-    if (look) time_step_->look(state_, leaf, begin, end);
-  });
+  pool_.for_ranges(state_.mass.size(), node_grain,
+                   [&args](std::size_t begin, std::size_t end) { node_kernels().assemble(args, begin, end); });
 }
 
 void Cycle::accelerate_again() {

@@ -43,43 +43,22 @@ TimeStep::TimeStep(const model::Model& model, const Profile& profile, bool has_t
   }
 }
 
-bool TimeStep::nodes_count() const { return nodal_only() || two_sided_; }
-
-bool TimeStep::nodal_only() const { return model_.controls.nodal_step || profile_.system_step != Profile::SystemStep::reference; }
-
-LimitArgs TimeStep::limit_args(const state::State& s) const {
+TimeStep::Smallest TimeStep::nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool) {
   LimitArgs args;
   args.mass = s.mass.data();
   args.stiffness = s.stiffness.data();
-  args.inertia = nodal_only() ? s.inertia.data() : nullptr;
+  args.inertia = rotations ? s.inertia.data() : nullptr;
   args.rotational_stiffness = s.rotational_stiffness.data();
   // All nodes are free for the reference; only those that can move give a true limit.
   const bool all = profile_.system_step == Profile::SystemStep::reference;
   args.free_translation = all ? nullptr : free_translation_.data();
   args.free_rotation = all ? nullptr : free_rotation_.data();
-  return args;
-}
-
-void TimeStep::expect(std::size_t nodes) {
-  leaves_.resize((nodes + parallel::leaf_size - 1) / parallel::leaf_size);
-  looked_ = true;
-}
-
-void TimeStep::look(const state::State& s, std::size_t leaf, std::size_t begin, std::size_t end) {
-  leaves_[leaf] = {};
-  node_kernels().limit(limit_args(s), begin, end, leaves_[leaf]);
-}
-
-TimeStep::Smallest TimeStep::nodal(const state::State& s, parallel::ThreadPool& pool) {
-  if (!looked_) {
-    expect(s.mass.size());
-    parallel::for_leaves(s.mass.size(), pool,
-                         [&](std::size_t leaf, std::size_t begin, std::size_t end) { look(s, leaf, begin, end); });
-  }
-  looked_ = false;
-  Smallest smallest;
-  for (const Smallest& leaf : leaves_) smallest += leaf;
-  return smallest;
+  const NodeKernels& kernels = node_kernels();
+  return parallel::ordered_sum(s.mass.size(), leaves_, pool, [&](std::size_t begin, std::size_t end) {
+    Smallest smallest;
+    kernels.limit(args, begin, end, smallest);
+    return smallest;
+  });
 }
 
 double TimeStep::scale_masses(state::State& s) {
@@ -125,9 +104,10 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
     }
   };
   const bool reference = profile_.system_step == Profile::SystemStep::reference;
-  if (!nodal_only()) take(limits.element, limits.element_controller);
-  if (nodes_count()) {
-    const Smallest smallest = nodal(s, pool);
+  const bool nodal_only = control.nodal_step || !reference;
+  if (!nodal_only) take(limits.element, limits.element_controller);
+  if (nodal_only || two_sided_) {
+    const Smallest smallest = nodal(s, nodal_only, pool);
     if (smallest.node >= 0) {
       const auto i = static_cast<std::size_t>(smallest.node);
       const bool contact = !smallest.rotation && contact_stiffness[i] > 0.5 * s.stiffness[i];

@@ -31,13 +31,6 @@ class TimeStep {
   /// Adds mass where /DT/NODA/CST asks for it (2.3). @return energy that the added mass brings, m v.v/2
   double scale_masses(state::State& s);
 
-  /// choose() needs the limit of every node.
-  [[nodiscard]] bool nodes_count() const;
-  /// Whoever has all nodes in hand anyway, with final masses and stiffnesses, may look at their limits before choose(): expect(), then
-  /// look() for every leaf of parallel::for_leaves, by any thread.
-  void expect(std::size_t nodes);
-  void look(const state::State& s, std::size_t leaf, std::size_t begin, std::size_t end);
-
   /// Chooses h_plus and h_bar of s.times; says who controls.
   /// @param contact_stiffness  #N: share of s.stiffness that comes from interfaces
   StepController choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness, parallel::ThreadPool& pool);
@@ -51,9 +44,7 @@ class TimeStep {
   struct Smallest : LimitLeaf {
     Smallest& operator+=(const Smallest& b);
   };
-  [[nodiscard]] Smallest nodal(const state::State& s, parallel::ThreadPool& pool);
-  [[nodiscard]] bool nodal_only() const;
-  [[nodiscard]] LimitArgs limit_args(const state::State& s) const;
+  [[nodiscard]] Smallest nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool);
 
   const model::Model& model_;
   Profile profile_;
@@ -61,7 +52,6 @@ class TimeStep {
   std::vector<std::uint8_t> free_translation_, free_rotation_;
   std::vector<std::uint8_t> scaled_;  ///< nodes that may receive mass
   std::vector<Smallest> leaves_;
-  bool looked_ = false;  ///< leaves_ are those of this cycle
   double nodal_scale_ = 0.9;
   double previous_step_ = 1e30;  ///< before the first cycle: no limit on growth
   double added_mass_ = 0.0;
