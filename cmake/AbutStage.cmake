@@ -1,7 +1,7 @@
 # abut_stage(name DEPENDS ...): the library of one folder of src/, with its *.isa.cpp files built per instruction set.
 set(ABUT_ISA_FLAGS_sse2 -msse2)
 set(ABUT_ISA_FLAGS_avx2 -mavx2)
-set(ABUT_ISA_FLAGS_avx512 -mavx512f -mavx512dq -mprefer-vector-width=512)
+set(ABUT_ISA_FLAGS_avx512 -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512)
 set(ABUT_ISA_WIDTH_sse2 2)
 set(ABUT_ISA_WIDTH_avx2 4)
 set(ABUT_ISA_WIDTH_avx512 8)

@@ -30,6 +30,22 @@ struct Manner {
   bool quiet = false, timing = false;
 };
 
+/// Wall time per phase; of the phases of a cycle also the share of the whole run. "elements shells" and the like are parts of "elements".
+/// @param cycles  that the run has advanced
+void print_timings(const Run& run, std::int64_t cycles) {
+  const std::vector<PhaseTime> timings = run.timings();
+  double whole = 0.0;
+  for (const PhaseTime& phase : timings) whole = phase.name == "run" ? phase.seconds : whole;
+  for (const PhaseTime& phase : timings) {
+    const bool before = phase.name == "read" || phase.name == "inspect" || phase.name == "init";
+    const std::string share = before || whole <= 0.0 ? "" : fmt::format(" {:>6.1f} %", 100.0 * phase.seconds / whole);
+    fmt::print("{:<24} {:>10.3f} s{}\n", phase.name, phase.seconds, share);
+  }
+  if (whole <= 0.0) return;
+  fmt::print("{:<24} {:>10.4g} element-cycles/s\n", "speed",
+             static_cast<double>(run.model().element_count()) * static_cast<double>(cycles) / whole);
+}
+
 /// To its end, with what happens on the console. @return whether it got there
 bool carry_out(Run& run, const Manner& manner) {
   const Model& model = run.model();
@@ -41,6 +57,7 @@ bool carry_out(Run& run, const Manner& manner) {
     std::fflush(stdout);
   }
   const std::size_t known = run.findings().size();
+  const std::int64_t first_cycle = run.cycle();
   for (const RunFinding& f : run.findings()) {
     if (f.cycle == run.cycle() && run.cycle() > 0) fmt::print(stderr, "{}\n", to_string(f.diagnostic));
   }
@@ -52,9 +69,7 @@ bool carry_out(Run& run, const Manner& manner) {
   const Outcome& outcome = run.outcome();
   const bool good = outcome.kind == Outcome::Kind::finished;
   if (!manner.quiet || !good) { fmt::print(good ? stdout : stderr, "{} {}\n", model.name(), to_string(outcome)); }
-  if (manner.timing) {
-    for (const PhaseTime& phase : run.timings()) fmt::print("{:<24} {:>10.3f} s\n", phase.name, phase.seconds);
-  }
+  if (manner.timing) print_timings(run, run.cycle() - first_cycle);
   return good;
 }
 

@@ -14,7 +14,8 @@ constexpr std::size_t node_grain = 1024;  // nodes that make a loop worth a thre
 /// Adds the wall-clock time of a scope to a phase.
 class Cycle::Timer {
  public:
-  Timer(Cycle& cycle, Phase phase) : seconds_(cycle.seconds_[phase]), start_(std::chrono::steady_clock::now()) {}
+  Timer(Cycle& cycle, Phase phase) : Timer(cycle.seconds_[phase]) {}
+  explicit Timer(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
   ~Timer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   Timer(const Timer&) = delete;
   Timer& operator=(const Timer&) = delete;
@@ -88,6 +89,7 @@ void Cycle::internal_forces(StepLimits& limits) {
   for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
   removed_energy_ = 0.0;
   for (const std::unique_ptr<elements::Group>& g : groups_) {
+    const Timer family(family_seconds_[static_cast<std::size_t>(g->kind())]);
     const elements::GroupResult r = g->step(in, out, pool_);
     if (r.bad_element != no_index) {
       throw RunError("element " + std::to_string(element_id(*g, r.bad_element)) + " of part " +

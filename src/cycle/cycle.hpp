@@ -140,6 +140,7 @@ class Cycle {
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;
   std::array<double, phase_count> seconds_{};
+  std::array<double, 5> family_seconds_{};  // of p_elements, by element kind
 };
 
 }  // namespace abut::cycle

@@ -1,8 +1,8 @@
 // The passes of a cycle over all nodes, built per instruction set: assembly with accelerations, limit of the step, sums of the
 // balance, integration.
 //
-// Vectors are #N by 3 doubles. Four nodes are twelve doubles, three registers of four; sums keep twelve accumulators (one per position
-// among the twelve), which are added in a fixed order at the end, so that the register width does not show in the bits.
+// Vectors are #N by 3 doubles. Four nodes are twelve doubles, three registers of four; sums keep four accumulators (twelve for the
+// momentum), which are added in a fixed order at the end, so that the register width does not show in the bits.
 #pragma once
 
 #include <cstddef>

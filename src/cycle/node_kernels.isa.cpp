@@ -37,7 +37,6 @@ ABUT_INLINE Twelve operator+(const Twelve& a, const Twelve& b) { return {{a.p[0]
 ABUT_INLINE Twelve operator-(const Twelve& a, const Twelve& b) { return {{a.p[0] - b.p[0], a.p[1] - b.p[1], a.p[2] - b.p[2]}}; }
 ABUT_INLINE Twelve operator*(const Twelve& a, const Twelve& b) { return {{a.p[0] * b.p[0], a.p[1] * b.p[1], a.p[2] * b.p[2]}}; }
 ABUT_INLINE Twelve operator*(Four s, const Twelve& a) { return {{s * a.p[0], s * a.p[1], s * a.p[2]}}; }
-ABUT_INLINE void add(Twelve& sum, const Twelve& a) { sum = sum + a; }
 
 /// Sum of the parts of component k, k + 3, ... in order.
 ABUT_INLINE double component(const Twelve& a, int k) {
@@ -45,14 +44,21 @@ ABUT_INLINE double component(const Twelve& a, int k) {
   for (int i = 0; i < 3; ++i) simd::store<4>(all + 4 * i, a.p[i]);
   return ((all[k] + all[k + 3]) + all[k + 6]) + all[k + 9];
 }
-ABUT_INLINE double total(const Twelve& a) { return (component(a, 0) + component(a, 1)) + component(a, 2); }
+/// Sum of the parts of each of the four places.
+ABUT_INLINE Four fold(const Twelve& a) { return (a.p[0] + a.p[1]) + a.p[2]; }
+ABUT_INLINE double total(Four a) {
+  double all[4];
+  simd::store<4>(all, a);
+  return ((all[0] + all[1]) + all[2]) + all[3];
+}
 
 /// One kind of motion of some nodes: translations or rotations.
 struct Moving {
   const double *velocity, *acceleration, *inertia, *minus, *plus;  ///< forces: plus (may be null) minus minus
 };
 struct MovingSums {
-  Twelve star, square, before, after, momentum;
+  Four star, square, before, after;
+  Twelve momentum;
 };
 
 ABUT_INLINE void add_four(const Moving& m, std::size_t i, Four half, Four h_bar, MovingSums& s) {
@@ -61,15 +67,16 @@ ABUT_INLINE void add_four(const Moving& m, std::size_t i, Four half, Four h_bar,
   const Twelve zero{};
   const Twelve g = (m.plus != nullptr ? load12(m.plus + 3 * i) : zero) - load12(m.minus + 3 * i);
   const Twelve momentum = j * now;
-  add(s.star, j * (v * after));
-  add(s.square, momentum * now);
-  add(s.momentum, momentum);
-  add(s.before, g * v);
-  add(s.after, g * after);
+  s.star += fold(j * (v * after));
+  s.square += fold(momentum * now);
+  s.momentum = s.momentum + momentum;
+  s.before += fold(g * v);
+  s.after += fold(g * after);
 }
 
 ABUT_INLINE void sum_moving(const Moving& m, const MotionArgs& args, std::size_t begin, std::size_t end, MovingSums& s) {
-  s = {};
+  const Four zero(0.0);
+  s = {zero, zero, zero, zero, {{zero, zero, zero}}};
   const Four half(args.half), h_bar(args.h_bar);
   std::size_t i = begin;
   for (; i + 4 <= end; i += 4) add_four(m, i, half, h_bar, s);

@@ -113,6 +113,13 @@ std::vector<PhaseTime> Cycle::phases() const {
                                                      "constraints", "integrate", "output"};
   std::vector<PhaseTime> out;
   for (int p = 0; p < phase_count; ++p) out.push_back({names[p], seconds_[static_cast<std::size_t>(p)]});
+  static constexpr const char* families[] = {nullptr, "elements shells", "elements triangles", "elements bricks", "elements tetrahedra"};
+  for (const model::ElementKind kind :
+       {model::ElementKind::shell4, model::ElementKind::shell3, model::ElementKind::brick, model::ElementKind::tetra}) {
+    const bool there = std::any_of(groups_.begin(), groups_.end(), [kind](const auto& g) { return g->kind() == kind && g->size() > 0; });
+    const auto k = static_cast<std::size_t>(kind);
+    if (there) out.push_back({families[k], family_seconds_[k]});
+  }
   return out;
 }
 

@@ -33,8 +33,11 @@ ABUT_INLINE void add_four(const double* slot, const std::uint16_t* position, dou
 /// @param positions  corners by 8
 template <int corners, int components>
 ABUT_INLINE void add_block(const double* slots, const std::uint16_t* positions, double* sums) {
+#pragma GCC unroll 8
   for (int k = 0; k < corners; ++k) {
+#pragma GCC unroll 2
     for (int lane = 0; lane < 8; lane += 4) {
+#pragma GCC unroll 2
       for (int c = 0; c < components; c += 4) {
         add_block_detail::add_four<components>(slots + (k * components + c) * 8 + lane, positions + k * 8 + lane, sums + c);
       }

@@ -14,7 +14,7 @@ constexpr std::int64_t cycles_between_looks = 50;
 constexpr int looks = 100;             // per run
 constexpr double deep_share = 0.95;    // of the gap
 constexpr double energy_share = 0.02;  // of the largest energy term
-constexpr double moved_share = 0.1;    // of a facet: what turns a facet by more than some degrees moves a node by more
+constexpr double moved_share = 0.25;   // of a facet: what turns a facet by a right angle moves a node of it by more
 
 double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x) {
   double sum = 0.0;

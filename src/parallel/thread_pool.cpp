@@ -88,8 +88,9 @@ struct ThreadPool::Impl {
 };
 
 ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>()) {
-  // About 50 us. With more threads than processors whoever waits awake keeps others from working.
-  if (threads <= static_cast<int>(std::thread::hardware_concurrency())) impl_->patience = 1000;
+  // Some 100 us, longer than what a cycle of a large model does on one thread between two loops: waking up costs as much. With more threads
+  // than processors whoever waits awake keeps others from working.
+  if (threads <= static_cast<int>(std::thread::hardware_concurrency())) impl_->patience = 5000;
   for (int i = 1; i < threads; ++i) {
     impl_->workers.emplace_back([this] { impl_->work(); });
   }

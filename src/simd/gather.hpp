@@ -60,15 +60,22 @@ ABUT_INLINE Triple<Pack<2>> gather3(const double* array, const std::int32_t* off
           Pack<2>(__builtin_shufflevector(c, d, 1, 3))};
 }
 
+/// Two doubles from p, two from q.
+ABUT_INLINE VectorOf<4>::real join(const double* p, const double* q) {
+#if defined(__AVX__)
+  // As an intrinsic the second piece is loaded by the instruction that joins them.
+  return (VectorOf<4>::real)_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(q), 1);
+#else
+  return __builtin_shufflevector(load_pair(p), load_pair(q), 0, 1, 2, 3);
+#endif
+}
+
 ABUT_INLINE Triple<Pack<4>> gather3(const double* array, const std::int32_t* offset, Pack<4> /*type*/) {
   const double* p0 = array + offset[0];
   const double* p1 = array + offset[1];
   const double* p2 = array + offset[2];
   const double* p3 = array + offset[3];
-  const auto a = __builtin_shufflevector(load_pair(p0), load_pair(p2), 0, 1, 2, 3);
-  const auto b = __builtin_shufflevector(load_pair(p1), load_pair(p3), 0, 1, 2, 3);
-  const auto c = __builtin_shufflevector(load_pair(p0 + 1), load_pair(p2 + 1), 0, 1, 2, 3);
-  const auto d = __builtin_shufflevector(load_pair(p1 + 1), load_pair(p3 + 1), 0, 1, 2, 3);
+  const auto a = join(p0, p2), b = join(p1, p3), c = join(p0 + 1, p2 + 1), d = join(p1 + 1, p3 + 1);
   return {Pack<4>(__builtin_shufflevector(a, b, 0, 4, 2, 6)), Pack<4>(__builtin_shufflevector(a, b, 1, 5, 3, 7)),
           Pack<4>(__builtin_shufflevector(c, d, 1, 5, 3, 7))};
 }

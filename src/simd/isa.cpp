@@ -15,7 +15,8 @@ bool has(Isa isa) {
     case Isa::avx2:
       return __builtin_cpu_supports("avx2") != 0;
     case Isa::avx512:
-      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
+      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+             __builtin_cpu_supports("avx512vl") != 0;
   }
   return false;
 }
@@ -29,7 +30,8 @@ Isa choose() {
     }
     throw std::runtime_error("ABUT_ISA=" + std::string(asked) + ": unknown; use sse2, avx2 or avx512");
   }
-  // AVX-512 only on request: no speed is claimed for it (docs/performance.md).
+  // AVX-512 by itself only where there is VBMI2 too (Intel since Ice Lake, AMD since Zen 4): older processors lower their clock for it.
+  if (has(Isa::avx512) && __builtin_cpu_supports("avx512vbmi2") != 0) return Isa::avx512;
   return has(Isa::avx2) ? Isa::avx2 : Isa::sse2;
 }
 

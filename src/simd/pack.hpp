@@ -102,6 +102,10 @@ ABUT_INLINE bool any(Mask<W> a) {
 #if defined(__AVX__)
     return _mm256_movemask_pd((__m256d)a.m) != 0;
 #endif
+  } else {
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask((__m512i)a.m, (__m512i)a.m) != 0;
+#endif
   }
   std::int64_t s = 0;
   for (int i = 0; i < W; ++i) s |= a.m[i];
@@ -131,17 +135,46 @@ ABUT_INLINE Pack<W> sqrt(Pack<W> a) {
   for (int i = 0; i < W; ++i) b.r[i] = __builtin_sqrt(a.r[i]);
   return b;
 }
+// max, min and abs as the instructions have them: max is b where a < b, else a; min is b where b < a, else a (a where one is not a number).
 template <int W>
 ABUT_INLINE Pack<W> max(Pack<W> a, Pack<W> b) {
+  if constexpr (W == 2) {
+#if defined(__SSE2__)
+    return Pack<W>((typename VectorOf<W>::real)_mm_max_pd((__m128d)b.r, (__m128d)a.r));
+#endif
+  } else if constexpr (W == 4) {
+#if defined(__AVX__)
+    return Pack<W>((typename VectorOf<W>::real)_mm256_max_pd((__m256d)b.r, (__m256d)a.r));
+#endif
+  } else {
+#if defined(__AVX512F__)
+    return Pack<W>((typename VectorOf<W>::real)_mm512_maskz_max_pd(static_cast<__mmask8>(0xff), (__m512d)b.r, (__m512d)a.r));
+#endif
+  }
   return select(a < b, b, a);
 }
 template <int W>
 ABUT_INLINE Pack<W> min(Pack<W> a, Pack<W> b) {
+  if constexpr (W == 2) {
+#if defined(__SSE2__)
+    return Pack<W>((typename VectorOf<W>::real)_mm_min_pd((__m128d)b.r, (__m128d)a.r));
+#endif
+  } else if constexpr (W == 4) {
+#if defined(__AVX__)
+    return Pack<W>((typename VectorOf<W>::real)_mm256_min_pd((__m256d)b.r, (__m256d)a.r));
+#endif
+  } else {
+#if defined(__AVX512F__)
+    return Pack<W>((typename VectorOf<W>::real)_mm512_maskz_min_pd(static_cast<__mmask8>(0xff), (__m512d)b.r, (__m512d)a.r));
+#endif
+  }
   return select(b < a, b, a);
 }
+/// Without the sign bit: abs(-0) is 0.
 template <int W>
 ABUT_INLINE Pack<W> abs(Pack<W> a) {
-  return select(a < Pack<W>(0.0), -a, a);
+  constexpr std::int64_t magnitude = 0x7fffffffffffffff;
+  return Pack<W>((typename VectorOf<W>::real)((typename VectorOf<W>::mask)a.r & magnitude));
 }
 
 template <int W>
@@ -161,7 +194,7 @@ ABUT_INLINE bool any(bool a) { return a; }
 ABUT_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
 ABUT_INLINE double max(double a, double b) { return a < b ? b : a; }
 ABUT_INLINE double min(double a, double b) { return b < a ? b : a; }
-ABUT_INLINE double abs(double a) { return a < 0.0 ? -a : a; }
+ABUT_INLINE double abs(double a) { return __builtin_fabs(a); }
 
 template <class T>
 struct NumberTraits {

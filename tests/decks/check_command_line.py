@@ -97,7 +97,11 @@ def complete(abut, deck, name, folder):
     for file in (name + ".out", name + "_th.csv", "run.json"):
         expect(os.path.getsize(os.path.join(folder, file)) > 0, f"{file} is there")
     with open(os.path.join(folder, "run.json")) as file:
-        expect(json.load(file)["outcome"]["kind"] == "finished", "run.json says that it finished")
+        record = json.load(file)
+    expect(record["outcome"]["kind"] == "finished", "run.json says that it finished")
+    seconds = {phase["name"]: phase["seconds"] for phase in record["timings"]}
+    families = [time for name, time in seconds.items() if name.startswith("elements ")]
+    expect(families and sum(families) <= seconds["elements"], "the time of the elements is told by family too")
 
 
 def recorded(abut, folder):

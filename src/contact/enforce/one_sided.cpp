@@ -182,8 +182,11 @@ void OneSided::search(const HostState& host) {
 }
 
 std::array<Motion, 2> OneSided::gather(const HostState& host) {
-  std::array<Vec3, 2> mean;
+  // Each side is measured against what it and the other side would have done together at the mean velocity of the step before.
+  const std::array<Vec3, 2> common{host.dt * mean_velocity_[0], host.dt * mean_velocity_[1]};
+  std::array<TwoLargest, 2> largest;  // against common[0], common[1]
   for (std::size_t k = 0; k < 2; ++k) {
+    if (committed_) side_[k].swap_positions(loads_[k].x_before);
     std::vector<MotionPart>& parts = parts_[k];
     parts.resize(pieces(at(side_[k].node_count())));
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
@@ -191,25 +194,19 @@ std::array<Motion, 2> OneSided::gather(const HostState& host) {
       const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
       const std::span<Vec3> before = std::span(loads_[k].x_before).subspan(begin, end - begin);
       if (!started_) std::copy(x.begin(), x.end(), before.begin());
-      parts[begin / piece].sum = sum_of_motions(x, before);
+      parts[begin / piece] = {sum_of_motions(x, before), largest_motion(x, before, common[0], common[1])};
     });
-    for (const MotionPart& part : parts) mean[k] += part.sum;
-    if (!parts.empty()) mean[k] = mean[k] / static_cast<double>(side_[k].node_count());
-  }
-  // Each side is measured against its own mean motion and against the other's.
-  std::array<TwoLargest, 2> largest;  // against the mean of side 0, of side 1
-  for (std::size_t k = 0; k < 2; ++k) {
-    over_pieces(k, [&](std::size_t begin, std::size_t end) {
-      const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
-      parts_[k][begin / piece].largest = largest_motion(x, std::span(loads_[k].x_before).subspan(begin, end - begin), mean[0], mean[1]);
-    });
-    for (const MotionPart& part : parts_[k]) {
+    Vec3 sum{};
+    for (const MotionPart& part : parts) {
+      sum += part.sum;
       largest[k].from_a = std::max(largest[k].from_a, part.largest.from_a);
       largest[k].from_b = std::max(largest[k].from_b, part.largest.from_b);
     }
     largest[k] = {std::sqrt(largest[k].from_a), std::sqrt(largest[k].from_b)};
+    if (!parts.empty() && host.dt > 0.0) mean_velocity_[k] = sum / (static_cast<double>(side_[k].node_count()) * host.dt);
   }
-  return {Motion{mean[1], largest[0].from_b, largest[1].from_b}, Motion{mean[0], largest[1].from_a, largest[0].from_a}};
+  committed_ = false;
+  return {Motion{common[1], largest[0].from_b, largest[1].from_b}, Motion{common[0], largest[1].from_a, largest[0].from_a}};
 }
 
 StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
@@ -288,7 +285,6 @@ void OneSided::commit(double) {
     loads.work_step = 0.0;
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
-        loads.x_before[s] = side_[k].x()[s];
         if (loads.loaded[s] == 0) continue;
         loads.force_before[s] = loads.node[s].total();
         loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
@@ -296,6 +292,7 @@ void OneSided::commit(double) {
     });
   }
   stepped_ = true;
+  committed_ = true;
   friction_work_ += friction_step_;
   friction_step_ = 0.0;
   damping_work_ += damping_step_;
@@ -344,7 +341,11 @@ void OneSided::save(HistoryWriter& out) const {
   for (std::size_t k = 0; k < 2; ++k) {
     out.put(loads_[k].work);
     out.put_all(loads_[k].force_before);
-    out.put_all(loads_[k].x_before);
+    if (committed_) {
+      out.put_all(side_[k].x());
+    } else {
+      out.put_all(loads_[k].x_before);
+    }
   }
   for (const Pass& pass : pass_) pass.save(out);
 }
@@ -369,6 +370,8 @@ void OneSided::load(HistoryReader& in) {
   }
   for (Pass& pass : pass_) pass.load(in);
   stepped_ = false;
+  committed_ = false;
+  mean_velocity_ = {};
 }
 
 }  // namespace abut::contact

@@ -46,10 +46,13 @@ class OneSided final : public InterfaceModel {
   double stepped_work_ = 0.0, stepped_step_ = 0.0;  ///< made by steps that changed under contact forces
   double initial_elastic_ = 0.0;                    ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
-  bool stepped_ = false;  ///< SideLoads::x_before are the positions of the last search
+  bool stepped_ = false;    ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
+  bool committed_ = false;  ///< since the last search: the sides' positions are now those before the step
+  std::array<Vec3, 2> mean_velocity_{};  ///< of each side's nodes in the last step
 
   void prepare();
-  /// The host's positions, and how far they are from those of the last step, for each pass.
+  /// The host's positions, and for each pass how far they are from those of the last step. Any common motion gives a true bound; the last
+  /// mean velocity gives a close one, so that one look at the nodes is enough.
   std::array<Motion, 2> gather(const HostState& host);
   /// body(begin, end) over all nodes of side k in consecutive pieces of `piece` nodes (the last one is shorter), on the executor's threads.
   template <class Body>

@@ -135,7 +135,7 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
         s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
     return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
   };
-  const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_);
+  const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_, executor_);
   if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);
   stale_ = false;
   mean_step_ = motion.mean;

@@ -18,7 +18,7 @@ Bounds facet_bounds(const Patch& patch) {
 }
 
 bool Candidates::update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin,
-                        bool force) {
+                        bool force, const Executor& executor) {
   if (!force && !first_.empty()) {
     const double change = motion.change();
     shift_ += motion.mean;
@@ -32,33 +32,59 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
   boxes_.resize(at(surface.facet_count()));
   for (Index f = 0; f < surface.facet_count(); ++f) boxes_[at(f)] = facet_bounds(surface.patch(f));
   tree_.build(boxes_);
-  first_.assign(at(held.node_count()) + 1, 0);
-  entries_.clear();
-  nearest_.assign(at(held.node_count()), 1e300);
-  others_.assign(at(held.node_count()), {});
-  for (Index i = 0; i < held.node_count(); ++i) {
-    const double distance = reach(i);
-    const auto begin = static_cast<std::ptrdiff_t>(entries_.size());
-    if (distance >= 0.0) {
-      const Vec3 x = held.x()[at(i)];
-      Bounds box{x, x};
-      box.inflate(distance + skin);
-      const double limit = distance + skin;
-      tree_.query(box, [&](Index f) {
-        if (!surface.active(f)) return;
-        for (const Index n : surface.surface().facets()[at(f)].node) {
-          if (n == held.nodes()[at(i)]) return;  // nobody touches a facet of its own
-        }
-        const double away = std::sqrt(closest_point(surface.patch(f), x).squared_distance);
-        if (away > limit) return;
-        entries_.push_back({f, false, away});  // the clock shows 0
-        nearest_[at(i)] = std::min(nearest_[at(i)], away);
-      });
-      std::sort(entries_.begin() + begin, entries_.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });
-    }
-    first_[at(i) + 1] = static_cast<Index>(entries_.size());
-  }
+  make(held, surface, reach, skin, executor);
   return true;
+}
+
+void Candidates::make(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin,
+                      const Executor& executor) {
+  const std::size_t nodes = at(held.node_count());
+  constexpr std::size_t piece = 256;  // nodes; every piece lists its own
+  const std::size_t pieces = (nodes + piece - 1) / piece;
+  first_.assign(nodes + 1, 0);
+  nearest_.assign(nodes, 1e300);
+  others_.assign(nodes, {});
+  std::vector<std::vector<Entry>> lists(pieces);
+  const auto make_lists = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      for (std::size_t i = p * piece; i < std::min(nodes, (p + 1) * piece); ++i) {
+        const std::size_t before = lists[p].size();
+        list(held, surface, static_cast<Index>(i), reach(static_cast<Index>(i)), skin, lists[p]);
+        first_[i + 1] = static_cast<Index>(lists[p].size() - before);
+      }
+    }
+  };
+  if (executor) {
+    executor(pieces, std::cref(make_lists));
+  } else {
+    make_lists(0, pieces);
+  }
+  std::size_t all = 0;
+  for (const std::vector<Entry>& l : lists) all += l.size();
+  entries_.clear();
+  entries_.reserve(all);
+  for (const std::vector<Entry>& l : lists) entries_.insert(entries_.end(), l.begin(), l.end());
+  for (std::size_t i = 0; i < nodes; ++i) first_[i + 1] += first_[i];
+}
+
+void Candidates::list(const Side& held, const Side& surface, Index node, double reach, double skin, std::vector<Entry>& entries) {
+  if (!(reach >= 0.0)) return;
+  const auto begin = static_cast<std::ptrdiff_t>(entries.size());
+  const Vec3 x = held.x()[at(node)];
+  const double limit = reach + skin;
+  Bounds box{x, x};
+  box.inflate(limit);
+  tree_.query(box, [&](Index f) {
+    if (!surface.active(f)) return;
+    for (const Index n : surface.surface().facets()[at(f)].node) {
+      if (n == held.nodes()[at(node)]) return;  // nobody touches a facet of its own
+    }
+    const double away = std::sqrt(closest_point(surface.patch(f), x).squared_distance);
+    if (away > limit) return;
+    entries.push_back({f, false, away});  // the clock shows 0
+    nearest_[at(node)] = std::min(nearest_[at(node)], away);
+  });
+  std::sort(entries.begin() + begin, entries.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });
 }
 
 }  // namespace abut::contact

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/contact/interface.hpp"
 #include "contact/search/box_tree.hpp"
 #include "contact/search/motion.hpp"
 #include "contact/surface/side.hpp"
@@ -26,9 +27,10 @@ class Candidates {
   /// Rebuilds the lists when the motion since the last build exceeds `skin` (or `force` is set).
   /// @param motion  since the last update
   /// @param reach  #held, distance within which facets matter (< 0: this node needs none)
+  /// @param executor  runs loops over held nodes; empty: the caller does
   /// @return true when the lists are new
   bool update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin,
-              bool force);
+              bool force, const Executor& executor = {});
 
   /// False before the first update().
   [[nodiscard]] bool made() const { return !first_.empty(); }
@@ -72,6 +74,9 @@ class Candidates {
   Vec3 shift_;  ///< mean motion of the surface since the lists were made
   double slack_ = 0.0;
   double clock_ = 0.0;
+
+  void make(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, const Executor& executor);
+  void list(const Side& held, const Side& surface, Index node, double reach, double skin, std::vector<Entry>& entries);
 };
 
 /// Box of a facet with its strips.

@@ -50,6 +50,8 @@ class Side {
   /// Those of nodes begin to end - 1.
   void gather(std::span<const Vec3> x, std::size_t begin, std::size_t end);
   [[nodiscard]] std::span<const Vec3> x() const { return x_; }
+  /// Gives its positions for others, #N.
+  void swap_positions(std::vector<Vec3>& x) { x_.swap(x); }
   [[nodiscard]] Patch patch(Index f) const {
     const std::array<Index, 4>& local = surface_.local()[at(f)];
     return {{x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, local[2] == local[3], borders_[at(f)]};

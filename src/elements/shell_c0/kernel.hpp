@@ -11,9 +11,11 @@
 #pragma once
 
 #include "elements/shell_c0/parameters.hpp"
+#include "elements/shell_common/finish_block.hpp"
 #include "elements/shell_common/kernel_args.hpp"
 #include "elements/shell_common/section.hpp"
 #include "elements/shell_common/stable_step.hpp"
+#include "simd/prefetch.hpp"
 
 namespace abut::elements {
 
@@ -225,8 +227,11 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
 /// Blocks [begin, end). `damping`: sqrt(1 + dm^2) - dm, the factor of the reference's step.
 template <class T, ShellLaw law>
 ABUT_INLINE void c0_blocks(const ShellKernelArgs& args, const C0Parameters& q, double damping, std::size_t begin, std::size_t end) {
+  const auto stride = static_cast<std::size_t>(args.section->variables * shell_lanes);
   for (std::size_t b = begin; b < end; ++b) {
+    simd::prefetch(args.state + (b + 1) * stride, stride);
     for (int lane = 0; lane < shell_lanes; lane += simd::NumberTraits<T>::width) c0_lanes<T, law>(args, q, damping, b, lane);
+    finish_block<T, 3>(args, b);
   }
 }
 

@@ -21,6 +21,15 @@ enum : int {
 };
 }
 
+/// What the blocks of a chunk add up to, lane by lane.
+struct ShellBook {
+  alignas(64) double internal[shell_lanes] = {};
+  alignas(64) double hourglass[shell_lanes] = {};
+  alignas(64) double on[shell_lanes] = {};  ///< elements with activity
+  alignas(64) double step[shell_lanes] = {1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30};  ///< least step, and
+  alignas(64) double block[shell_lanes] = {};                                               ///< the first block that has it
+};
+
 struct ShellKernelArgs {
   const double* x = nullptr;  ///< #N by 3
   const double* v = nullptr;
@@ -33,6 +42,9 @@ struct ShellKernelArgs {
   double* slots = nullptr;              ///< of block 0; group.hpp, SlotLayout
   std::size_t slot_stride = 0;          ///< from block to block; 0: every block uses the same
   double* steps = nullptr;              ///< #B by 8: element step, 1e30 for elements that are off
+  const std::uint16_t* positions = nullptr;  ///< of block 0 (chunks.hpp)
+  double* sums = nullptr;                    ///< of the chunk that the blocks belong to; null: slots only
+  ShellBook* book = nullptr;                 ///< of that chunk; null: none
 };
 
 template <class T>

@@ -8,33 +8,32 @@
 
 #include "elements/shell_common/setup.hpp"
 #include "simd/isa.hpp"
-#include "simd/prefetch.hpp"
 
 namespace abut::elements {
 
-// add_block.isa.cpp, once per instruction set
-#define ABUT_DECLARE_ADD(isa)                                            \
-  namespace isa {                                                        \
-  void add_quad_block(const double*, const std::uint16_t*, double*);     \
-  void add_triangle_block(const double*, const std::uint16_t*, double*); \
+// finish_block.isa.cpp, once per instruction set
+#define ABUT_DECLARE_FINISH(isa)                                  \
+  namespace isa {                                                 \
+  void finish_quad_block(const ShellKernelArgs&, std::size_t);    \
+  void finish_triangle_block(const ShellKernelArgs&, std::size_t); \
   }
-ABUT_DECLARE_ADD(sse2)
-ABUT_DECLARE_ADD(avx2)
-ABUT_DECLARE_ADD(avx512)
-#undef ABUT_DECLARE_ADD
+ABUT_DECLARE_FINISH(sse2)
+ABUT_DECLARE_FINISH(avx2)
+ABUT_DECLARE_FINISH(avx512)
+#undef ABUT_DECLARE_FINISH
 
 namespace {
 
-auto choose_add_block(bool quad) {
+auto choose_finish_block(bool quad) {
   switch (simd::active_isa()) {
     case simd::Isa::avx512:
-      return quad ? avx512::add_quad_block : avx512::add_triangle_block;
+      return quad ? avx512::finish_quad_block : avx512::finish_triangle_block;
     case simd::Isa::avx2:
-      return quad ? avx2::add_quad_block : avx2::add_triangle_block;
+      return quad ? avx2::finish_quad_block : avx2::finish_triangle_block;
     case simd::Isa::sse2:
       break;
   }
-  return quad ? sse2::add_quad_block : sse2::add_triangle_block;
+  return quad ? sse2::finish_quad_block : sse2::finish_triangle_block;
 }
 
 /// Stress of a shell's frame (xx yy xy yz zx, no zz) in global axes: xx yy zz xy yz zx.
@@ -128,7 +127,7 @@ void ShellGroup::set_up() {
 
   nodes_.resize(blocks * per_element_ * lanes);
   steps_.assign(blocks * lanes, 1e30);
-  add_block_ = choose_add_block(per_element_ == 4);
+  finish_block_ = choose_finish_block(per_element_ == 4);
   results_.resize(static_cast<std::size_t>(chunks_.size()));
   state_.assign(blocks * static_cast<std::size_t>(section_->variables) * lanes, 0.0);
   for (Index e = 0; e < padded; ++e) {
@@ -159,49 +158,58 @@ void ShellGroup::add_masses(std::span<double> mass, std::span<double> inertia) c
   }
 }
 
+bool ShellGroup::acts_on_small_steps() const {
+  using Action = model::StepControl::Action;
+  return in_.step_action == Action::remove || in_.step_action == Action::constant;
+}
+
+double ShellGroup::count_on(std::size_t chunk) const {
+  double on = 0.0;
+  for (std::size_t b = chunks_.first_block(chunk); b < chunks_.end_block(chunk); ++b) {
+    const double* off = state_.data() + (b * static_cast<std::size_t>(section_->variables) + shell_state::off) * lanes;
+    for (int l = 0; l < lanes; ++l) on += off[l] > 0.0 ? 1.0 : 0.0;
+  }
+  return on;
+}
+
 void ShellGroup::run_chunk(ShellKernelArgs args, const StepOutput& out, std::size_t chunk) {
   alignas(64) double scratch[4 * 8 * lanes];  // slots of one block, when nobody asks for them all
-  const std::size_t block_slots = per_element_ * 8 * lanes;
+  ShellBook book;
   args.slots = out.slots != nullptr ? out.slots + layout_.offset : scratch;
-  args.slot_stride = out.slots != nullptr ? block_slots : 0;
+  args.slot_stride = out.slots != nullptr ? per_element_ * 8 * lanes : 0;
+  args.positions = chunks_.positions();
   double* sums = out.sums != nullptr ? out.sums + chunks_.sum_offset(chunk) : nullptr;
   if (sums != nullptr) std::fill_n(sums, chunks_.nodes(chunk).size() * 8, 0.0);
   ChunkResult& result = results_[chunk];
-  result = {};
-  for (std::size_t b = chunks_.first_block(chunk); b < chunks_.end_block(chunk); ++b) {
-    run_block(args, b, result);
-    if (sums != nullptr) add_block_(args.slots + b * args.slot_stride, chunks_.positions() + b * per_element_ * lanes, sums);
-  }
-}
-
-void ShellGroup::run_block(const ShellKernelArgs& args, std::size_t block, ChunkResult& result) {
-  const auto stride = static_cast<std::size_t>(section_->variables) * lanes;
-  const double* state = state_.data() + block * stride;
-  const double* off = state + shell_state::off * lanes;
-  const auto count_on = [&] {
-    int on = 0;
-    for (int l = 0; l < lanes; ++l) on += off[l] > 0.0 ? 1 : 0;
-    return on;
-  };
-  const int before = count_on();
-  if (block + 1 < static_cast<std::size_t>(layout_.blocks)) simd::prefetch(state + stride, stride);
-  run(args, block, block + 1);
-  if (in_.step_action == model::StepControl::Action::remove || in_.step_action == model::StepControl::Action::constant) {
-    act_on_small_steps(args, block);
-  }
-  result.removed += before - count_on();
-  const double* step = steps_.data() + block * lanes;
-  const double* membrane = state + shell_state::membrane_energy * lanes;
-  const double* bending = state + shell_state::bending_energy * lanes;
-  const double* hourglass = state + shell_state::hourglass_energy * lanes;
-  for (int l = 0; l < lanes; ++l) {
-    if (step[l] < result.step) {
-      result.step = step[l];
-      result.element = static_cast<Index>(block * lanes) + l;
+  const double on = result.on < 0.0 ? count_on(chunk) : result.on;
+  const std::size_t first = chunks_.first_block(chunk), end = chunks_.end_block(chunk);
+  if (!acts_on_small_steps()) {
+    args.sums = sums;
+    args.book = &book;
+    run(args, first, end);
+  } else {
+    ShellKernelArgs whole = args;
+    whole.sums = sums;
+    whole.book = &book;
+    for (std::size_t b = first; b < end; ++b) {
+      run(args, b, b + 1);
+      act_on_small_steps(args, b);
+      finish_block_(whole, b);
     }
-    result.internal += membrane[l] + bending[l];
-    result.hourglass += hourglass[l];
   }
+  result = {};
+  for (int l = 0; l < lanes; ++l) {
+    result.internal += book.internal[l];
+    result.hourglass += book.hourglass[l];
+    const Index element = static_cast<Index>(book.block[l]) * lanes + l;
+    if (book.step[l] < result.step || (book.step[l] == result.step && result.step < 1e30 && element < result.element)) {
+      result.step = book.step[l];
+      result.element = element;
+    }
+  }
+  result.on = 0.0;
+  for (const double lane : book.on) result.on += lane;
+  result.removed = static_cast<Index>(on - result.on);
 }
 
 void ShellGroup::act_on_small_steps(const ShellKernelArgs& args, std::size_t block) {
@@ -291,6 +299,7 @@ double ShellGroup::element_energy(Index element) const {
 
 std::vector<std::span<double>> ShellGroup::history() {
   if (state_.empty()) return {};
+  for (ChunkResult& r : results_) r.on = -1.0;  // whoever restores a history may change which elements are on
   return {std::span<double>(state_)};
 }
 

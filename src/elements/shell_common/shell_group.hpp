@@ -65,15 +65,17 @@ class ShellGroup : public Group {
  private:
   struct ChunkResult {
     double step = 1e30, internal = 0.0, hourglass = 0.0;
+    double on = -1.0;  ///< elements with activity; < 0: to be counted
     Index element = 0, removed = 0;
   };
-  using AddBlock = void (*)(const double* slots, const std::uint16_t* positions, double* sums);
+  using FinishBlock = void (*)(const ShellKernelArgs& args, std::size_t block);
 
   [[nodiscard]] double constant(Index element, int which) const;
   [[nodiscard]] double initial_thickness(Index element) const;
   [[nodiscard]] std::array<Vec3, 4> corners(Index element, const Vec3* x) const;
   void run_chunk(ShellKernelArgs args, const StepOutput& out, std::size_t chunk);
-  void run_block(const ShellKernelArgs& args, std::size_t block, ChunkResult& result);
+  [[nodiscard]] bool acts_on_small_steps() const;
+  [[nodiscard]] double count_on(std::size_t chunk) const;
   void act_on_small_steps(const ShellKernelArgs& args, std::size_t block);
   [[nodiscard]] Index first_bad_element(std::size_t chunk) const;
 
@@ -86,7 +88,7 @@ class ShellGroup : public Group {
   std::vector<std::int32_t> nodes_;
   std::vector<double> steps_;
   std::vector<ChunkResult> results_;
-  AddBlock add_block_ = nullptr;
+  FinishBlock finish_block_ = nullptr;
   mutable NodalShares shares_;
   const Vec3* last_x_ = nullptr;
 };

@@ -11,12 +11,14 @@
 // Elements that are off or rigid see zero rates and write zeros.
 #pragma once
 
+#include "elements/shell_common/finish_block.hpp"
 #include "elements/shell_common/kernel_args.hpp"
 #include "elements/shell_common/section.hpp"
 #include "elements/shell_q4/geometry.hpp"
 #include "elements/shell_q4/hourglass.hpp"
 #include "elements/shell_q4/parameters.hpp"
 #include "elements/shell_q4/step_length.hpp"
+#include "simd/prefetch.hpp"
 
 namespace abut::elements {
 
@@ -61,15 +63,19 @@ struct Q4Motion {
   T wx13, wy13, wx24, wy24, wxs, wys, wxh, wyh;
 };
 
-/// First stage: gather, geometry, velocities in the frame.
+/// First stage: positions, frame, operators.
 template <class T>
-ABUT_INLINE void q4_motion(const ShellKernelArgs& args, const Q4Parameters& q, double* state, const std::int32_t* nodes, Q4Motion<T>& m) {
-  Q4Geometry<T> g;
+ABUT_INLINE void q4_geometry(const ShellKernelArgs& args, const Q4Parameters& q, double* state, const std::int32_t* nodes, Q4Geometry<T>& g) {
   q4_frame(q.frame_v4, gather(T{}, args.x, nodes), gather(T{}, args.x, nodes + 8), gather(T{}, args.x, nodes + 16),
            gather(T{}, args.x, nodes + 24), g);
   if (q.may_freeze) q4_detail::freeze(state + q.at_frozen * shell_lanes, g);
   q4_operators(q.plain_gamma, g);
-  m.g = g;
+}
+
+/// Second stage: velocities in the frame.
+template <class T>
+ABUT_INLINE void q4_motion(const ShellKernelArgs& args, const std::int32_t* nodes, Q4Motion<T>& m) {
+  const Q4Geometry<T>& g = m.g;
   // Differences first, then into the frame.
   {
     const Vec<T> v1 = gather(T{}, args.v, nodes), v3 = gather(T{}, args.v, nodes + 16);
@@ -99,7 +105,7 @@ ABUT_INLINE void q4_motion(const ShellKernelArgs& args, const Q4Parameters& q, d
   m.wyh = dot(hg, g.e2);
 }
 
-/// Second stage: rates, section, hourglass, forces, for the NumberTraits<T>::width elements from `lane` on of one block.
+/// Third stage: rates, section, hourglass, forces, for the NumberTraits<T>::width elements from `lane` on of one block.
 template <class T, ShellLaw law>
 ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t block, int lane,
                           const Q4Motion<T>& motion) {
@@ -224,13 +230,17 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
 template <class T, ShellLaw law>
 ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t begin, std::size_t end) {
   constexpr int width = simd::NumberTraits<T>::width;
+  const auto stride = static_cast<std::size_t>(args.section->variables * shell_lanes);
   Q4Motion<T> motion[shell_lanes / width];
   for (std::size_t b = begin; b < end; ++b) {
     // Stage by stage over the block: the processor works on one half while the other waits for the roots of its frame.
     const std::int32_t* nodes = args.nodes + b * (4 * shell_lanes);
-    double* state = args.state + b * static_cast<std::size_t>(args.section->variables * shell_lanes);
-    for (int p = 0; p < shell_lanes / width; ++p) q4_motion(args, q, state + p * width, nodes + p * width, motion[p]);
+    double* state = args.state + b * stride;
+    simd::prefetch(state + stride, stride);
+    for (int p = 0; p < shell_lanes / width; ++p) q4_geometry(args, q, state + p * width, nodes + p * width, motion[p].g);
+    for (int p = 0; p < shell_lanes / width; ++p) q4_motion(args, nodes + p * width, motion[p]);
     for (int p = 0; p < shell_lanes / width; ++p) q4_lanes<T, law>(args, q, damping, b, p * width, motion[p]);
+    finish_block<T, 4>(args, b);
   }
 }
 
