@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Use abut's command line as a user does: exit codes, messages, a run, an interrupted run.
 
-usage: check_command_line.py ABUT DECK
+usage: check_command_line.py ABUT DECK [PYTHON]
 
-ABUT is the program, DECK a Starter deck that has no errors, with its Engine deck beside it. Standard library only.
+ABUT is the program, DECK a Starter deck that has no errors, with its Engine deck beside it. PYTHON (with VTK: Debian's /usr/bin/python3)
+reads the animation of an interrupted run; without it only the index is looked at. Standard library only.
 Exit status 0 when all holds.
 """
 import json
@@ -68,13 +69,21 @@ def endless(deck, folder):
     return os.path.join(folder, os.path.basename(deck))
 
 
-def interrupted(abut, deck, name, folder):
-    """Ctrl-C after the first history row: complete files, status 1, the manifest says so."""
+def states_in(index):
+    if not os.path.exists(index):
+        return 0
+    with open(index) as file:
+        return file.read().count("<DataSet ")
+
+
+def interrupted(abut, deck, name, folder, python=None):
+    """Ctrl-C after some history rows and two states: complete files, status 1, the manifest says so, the animation can be read."""
     process = subprocess.Popen([abut, "run", deck, "-o", folder, "--quiet"], stderr=subprocess.PIPE, text=True)
     history = os.path.join(folder, name + "_th.csv")
+    index = os.path.join(folder, name + ".pvd")
     limit = time.monotonic() + 60
     while time.monotonic() < limit and process.poll() is None:
-        if os.path.exists(history) and open(history).read().count("\n") > 1:
+        if os.path.exists(history) and open(history).read().count("\n") > 1 and states_in(index) > 1:
             break
         time.sleep(0.02)
     expect(process.poll() is None, "the run lasts long enough to be interrupted")
@@ -89,6 +98,11 @@ def interrupted(abut, deck, name, folder):
         lines = file.read()
     columns = {line.count(",") for line in lines.splitlines()}
     expect(lines.endswith("\n") and len(columns) == 1, "every history row is complete")
+    expect(states_in(index) > 1, "the index names the states written so far")
+    if python is not None:
+        reader = os.path.join(os.path.dirname(os.path.abspath(__file__)), "read_animation.py")
+        result = call(python, reader, index, "--nonzero", "displacement", "velocity")
+        expect(result.returncode == 0, "every state of an interrupted run can be read", result)
 
 
 def complete(abut, deck, name, folder):
@@ -137,14 +151,14 @@ def unwritable(abut, deck, folder):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         print(__doc__, file=sys.stderr)
         return 2
-    abut, deck = sys.argv[1:]
+    abut, deck = sys.argv[1:3]
     usage(abut)
     name = check(abut, deck)
     with tempfile.TemporaryDirectory() as folder:
-        interrupted(abut, endless(deck, os.path.join(folder, "deck")), name, os.path.join(folder, "interrupted"))
+        interrupted(abut, endless(deck, os.path.join(folder, "deck")), name, os.path.join(folder, "interrupted"), *sys.argv[3:])
         complete(abut, deck, name, os.path.join(folder, "complete"))
         recorded(abut, folder)
         unwritable(abut, deck, folder)

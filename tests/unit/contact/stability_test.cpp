@@ -128,6 +128,56 @@ TEST(Stability, coming_contact_is_announced) {
   EXPECT_EQ(host.last.kinematic_step, 1e30);
 }
 
+/// Kinematic limit of a plate of light nodes that moves along z over a plate at rest, at a depth P within the gap.
+/// @param passes  2: TYPE3, the nodes of each plate against the other; 1: TYPE5
+double kinematic_limit(int passes, const Options& o, double depth, double speed, double dt) {
+  Host host;
+  const auto lower = grid(host, 3, 3, -1.5, 1.5, -1.5, 1.5, test::flat, true, false, 1.0);
+  const auto first = static_cast<Index>(host.x.size());
+  const double z = o.gap - depth;
+  const auto upper = grid(
+      host, 2, 2, -1.0, 0.9, -0.9, 1.0, [z](double, double) { return z; }, false, false, 1.0);
+  std::vector<Index> nodes;
+  for (auto n = first; n < static_cast<Index>(host.x.size()); ++n) {
+    host.v[static_cast<std::size_t>(n)].z = -speed;
+    nodes.push_back(n);
+  }
+  Interface i = passes == 2 ? Interface::two_surfaces(Surface(lower), Surface(upper), o)
+                            : Interface::nodes_to_surface(nodes, std::vector<double>(nodes.size(), 1.0), Surface(lower), o);
+  set_stiffness(i, passes == 2 ? 0 : 1, lower.size(), 1.0);
+  if (passes == 2) set_stiffness(i, 1, upper.size(), 1.0);
+  host.dt = dt;
+  host.contact(i);
+  EXPECT_EQ(host.last.in_contact > 0, depth > 0.0) << "depth " << depth;
+  return host.last.kinematic_step;
+}
+
+// Inside the gap, P > 0: h <= (Gap - P)/2 over the closing speed, down to the bend of the law (0.9 Gap), where the tangent goes on and a
+// tenth of the gap is always left.
+TEST(Stability, kinematic_limit_is_half_the_way_that_is_left_in_the_gap) {
+  Options o;
+  o.gap = 0.01;
+  for (const int passes : {1, 2}) {
+    for (const double share : {0.05, 0.2, 0.5, 0.8, 0.89, 0.95, 1.2}) {
+      for (const double speed : {0.3, 2.0}) {
+        const double room = std::max((1.0 - share) * o.gap, 0.1 * o.gap);
+        const double expected = 0.5 * room / speed;
+        // A step of which the limit is less than twice: it is handed over.
+        EXPECT_NEAR(kinematic_limit(passes, o, share * o.gap, speed, 0.9 * expected), expected, 1e-9 * expected)
+            << "TYPE" << (passes == 2 ? 3 : 5) << ", P/Gap " << share << ", speed " << speed;
+      }
+    }
+    EXPECT_EQ(kinematic_limit(passes, o, 0.5 * o.gap, -2.0, 1e-3), 1e30) << "it leaves: no limit";
+    EXPECT_EQ(kinematic_limit(passes, o, 0.5 * o.gap, 0.0, 1e-3), 1e30) << "it rests: no limit";
+    Options constant = o;
+    constant.rules.law = Law::constant;
+    EXPECT_EQ(kinematic_limit(passes, constant, 0.5 * o.gap, 2.0, 1e-3), 1e30) << "F = K P has no pole: no limit";
+    Options reference = o;
+    reference.rules = Rules::reference();
+    EXPECT_EQ(kinematic_limit(passes, reference, 0.5 * o.gap, 2.0, 1e-3), 1e30) << "the reference's TYPE3 and TYPE5 never limit the step";
+  }
+}
+
 /// Forces and nodal stiffness of several interfaces on one host.
 struct Sum {
   std::vector<Vec3> f;

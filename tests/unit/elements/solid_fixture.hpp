@@ -168,4 +168,13 @@ struct Box {
   [[nodiscard]] bool interior(int i, int j, int k) const { return i > 0 && i < nx && j > 0 && j < ny && k > 0 && k < nz; }
 };
 
+/// Six tetrahedra per brick around the diagonal 0-6.
+inline std::vector<std::vector<Index>> split(const std::vector<std::vector<Index>>& bricks) {
+  std::vector<std::vector<Index>> out;
+  constexpr int ring[7] = {1, 2, 3, 7, 4, 5, 1};
+  for (const auto& b : bricks)
+    for (int i = 0; i < 6; ++i) out.push_back({b[0], b[static_cast<std::size_t>(ring[i])], b[static_cast<std::size_t>(ring[i + 1])], b[6]});
+  return out;
+}
+
 }  // namespace abut::elements::test

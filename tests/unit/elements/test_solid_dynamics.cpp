@@ -8,15 +8,6 @@
 namespace abut::elements::test {
 namespace {
 
-/// Six tetrahedra per brick around the diagonal 0-6.
-std::vector<std::vector<Index>> split(const std::vector<std::vector<Index>>& bricks) {
-  std::vector<std::vector<Index>> out;
-  constexpr int ring[7] = {1, 2, 3, 7, 4, 5, 1};
-  for (const auto& b : bricks)
-    for (int i = 0; i < 6; ++i) out.push_back({b[0], b[static_cast<std::size_t>(ring[i])], b[static_cast<std::size_t>(ring[i + 1])], b[6]});
-  return out;
-}
-
 /// Leap-frog step with constant h: v += h a, x += h v, forces. v holds v(n+1/2) afterwards.
 /// @return kinetic energy at t^n, 1/2 m v(n-1/2).v(n+1/2)
 double leap(SolidBody& body, double h, bool first = false) {

@@ -1,6 +1,7 @@
 // TETRA4: kinematics, masses, stress, objectivity, steps (numerics.md 4.9, 1.4, 2.1.7, 2.2).
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <numbers>
 
 #include "stability.hpp"
@@ -66,13 +67,9 @@ TEST(Tetra, PatchTest) {
   for (int k = 1; k < 3; ++k)
     for (int j = 1; j < 3; ++j)
       for (int i = 1; i < 3; ++i) box.nodes[static_cast<std::size_t>(box.node(i, j, k))] += 0.2 * random.vec();
-  std::vector<std::vector<Index>> tetras;
-  constexpr std::size_t ring[7] = {1, 2, 3, 7, 4, 5, 1};
-  for (const auto& b : box.bricks)
-    for (std::size_t i = 0; i < 6; ++i) tetras.push_back({b[0], b[ring[i]], b[ring[i + 1]], b[6]});
   SolidSetup s;
   s.property.qa = s.property.qb = 0.0;
-  SolidBody body(box.nodes, tetras, s);
+  SolidBody body(box.nodes, split(box.bricks), s);
   body.set_velocity([](const Vec3& x) { return Vec3{0.1 * x.x + 0.2 * x.y, -0.1 * x.y + 0.3 * x.z, 0.05 * x.z + 0.1 * x.x}; });
   body.advance(1e-3);
   for (int k = 1; k < 3; ++k)
@@ -167,6 +164,55 @@ TEST(Tetra, BoundStepIsBelowTheExactLimit) {
   }
   RecordProperty("smallest_ratio", std::to_string(worst));
   EXPECT_GT(worst, 0.8);
+}
+
+/// Lowest longitudinal frequency of a free bar of 10 x 1 x 1, nu = 0, cells of six tetrahedra, over the exact pi c/L: the bar starts
+/// undeformed with the velocities of the mode, whose amplitude is largest after a quarter of the period. The step falls with the cells.
+double bar_frequency(int cells, int across) {
+  constexpr double length = 10.0, speed = 1e-6;
+  Box box(cells, across, across, {length / cells, 1.0 / across, 1.0 / across});
+  SolidSetup s;
+  s.law = model::LawElastic{210.0, 0.0};
+  s.property.qa = s.property.qb = 0.0;
+  SolidBody body(box.nodes, split(box.bricks), s);
+  const auto start = body.x;
+  const auto shape = [](double x) { return std::cos(std::numbers::pi * x / length); };
+  body.set_velocity([&](const Vec3& x) { return Vec3{speed * shape(x.x), 0, 0}; });
+  const double omega = std::numbers::pi / length * std::sqrt(210.0 / 7.8);
+  const double h = 0.15 * length / cells / std::sqrt(210.0 / 7.8);
+  body.step(0.0);
+  const auto amplitude = [&] {
+    double a = 0.0;
+    for (std::size_t i = 0; i < start.size(); ++i) a += body.m[i] * shape(start[i].x) * (body.x[i].x - start[i].x);
+    return a;
+  };
+  // The quarter period at which the amplitude is largest: where its rate changes sign, interpolated.
+  double before = 0.0, rate_before = 0.0;
+  for (int i = 0; i < 100000; ++i) {
+    for (std::size_t k = 0; k < body.x.size(); ++k) body.v[k] += (-(i == 0 ? 0.5 : 1.0) * h / body.m[k]) * body.f[k];
+    body.advance(h);
+    const double now = amplitude(), rate = (now - before) / h;
+    if (rate < 0.0) {
+      const double quarter = (i - 0.5 + rate_before / (rate_before - rate)) * h;
+      return 0.5 * std::numbers::pi / quarter / omega;
+    }
+    before = now;
+    rate_before = rate;
+  }
+  return 0.0;
+}
+
+// Frequency of a known mode, refined: c = sqrt(E/rho), omega = pi c/L (Graff 1975, 2.3).
+TEST(Tetra, LongitudinalModeOfABarConverges) {
+  double error[3];
+  const int across[3] = {1, 2, 4};
+  for (std::size_t i = 0; i < 3; ++i) {
+    error[i] = bar_frequency(10 * across[i], across[i]) - 1.0;
+    std::printf("[found] bar of tetrahedra, %d x %d x %d cells: frequency / exact - 1 = %.3e\n", 10 * across[i], across[i], across[i],
+                error[i]);
+  }
+  EXPECT_LT(std::abs(error[2]), 5e-4);
+  for (std::size_t i = 1; i < 3; ++i) EXPECT_NEAR(error[i - 1] / error[i], 4.0, 0.6) << "second order, " << across[i];
 }
 
 TEST(Tetra, OrientationAndCollapse) {
