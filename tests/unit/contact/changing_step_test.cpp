@@ -212,8 +212,8 @@ TEST(ChangingStep, made_is_booked_when_a_facet_goes) {
   }
 }
 
-// A host says that a facet cannot move by masses of zero or by mobilities, and that one can move along z only by masses or by a mobility:
-// the same bits; a replay of its calls knows them.
+// A host says that a facet cannot move by masses of zero or by mobilities: the same bits. One that moves along z has the mass of a mobility
+// along z, but for the square of its tilt. A replay of the calls knows them.
 TEST(ChangingStep, mobility_stands_for_mass) {
   for (const bool slides : {false, true}) {
     std::array<std::vector<Vec3>, 2> motion;
@@ -258,7 +258,8 @@ TEST(ChangingStep, mobility_stands_for_mass) {
       std::istringstream in(log.str());
       EXPECT_EQ(replay(in).different, 0);
     }
-    EXPECT_EQ(motion[0], motion[1]) << slides;
+    EXPECT_TRUE(slides || motion[0] == motion[1]);
+    for (std::size_t k = 0; k < motion[0].size(); ++k) EXPECT_LT(norm(motion[0][k] - motion[1][k]), 1e-8) << k;
   }
 }
 
