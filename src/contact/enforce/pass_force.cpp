@@ -75,17 +75,25 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   const double distance = dot(r, n);
   const double penetration = touch.gap - distance;
   if (penetration <= 0.0 || -distance > depth_[at(touch.facet)]) return 0.0;
+  const std::size_t corners = patch.triangle ? 3 : 4;
+  const std::array<Index, 4>& node = surface.surface().facets()[at(touch.facet)].node;
+  double side = 1e300, slowest = 1e300, fastest = -1e300;
+  for (std::size_t k = 0; k < corners; ++k) {
+    side = std::min(side, norm(patch.x[(k + 1) % corners] - patch.x[k]));
+    const double rises = dot(host.v[at(node[k])], n);
+    slowest = std::min(slowest, rises);
+    fastest = std::max(fastest, rises);
+  }
+  if (side <= 0.0) return 0.0;
+  // The node's foot moves along the facet by its own motion and by the facet's turning.
   const Vec3 v = motion.rate * touch.normal + motion.tangential_velocity;
-  const double way = 1.5 * step_growth * host.dt * norm(v - dot(v, n) * n);
+  const double speed = norm(v - dot(v, n) * n) + (fastest - slowest) / side * std::abs(distance);
+  const double way = 1.5 * step_growth * host.dt * speed;
   if (norm(r - distance * n) > way) return 0.0;
   // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
   const double reach = std::max(options_.gap, largest_depth_);
   if (norm(r) > (state_[at(i)].in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
-  const std::size_t corners = patch.triangle ? 3 : 4;
-  double side = 1e300;
-  for (std::size_t k = 0; k < corners; ++k) side = std::min(side, squared_norm(patch.x[(k + 1) % corners] - patch.x[k]));
-  const double width = (1.0 - border_flat) * border_strip * std::sqrt(side);
-  if (width <= 0.0) return 0.0;
+  const double width = (1.0 - border_flat) * border_strip * side;
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);
   // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node

@@ -1,9 +1,13 @@
 // Contact keeps its energy while the host's step changes: the usual h = 0.9 sqrt(2 m/K), the kinematic limit, growth by 1.1 per cycle.
 #include <gtest/gtest.h>
 
+#include <abut/contact/call_log.hpp>
 #include <abut/contact/interface.hpp>
+#include <array>
 #include <cstdio>
 #include <random>
+#include <sstream>
+#include <stdexcept>
 
 #include "unit/contact/bench_host.hpp"
 
@@ -205,6 +209,57 @@ TEST(ChangingStep, made_is_booked_when_a_facet_goes) {
     EXPECT_EQ(host.last.in_contact, 0);
     EXPECT_GT(std::abs(kinetic_sum - first), 0.1 * first);
     EXPECT_NEAR(host.last.made, kinetic_sum - first, 1e-12 * first) << dies;
+  }
+}
+
+// A host says that a facet cannot move by masses of zero or by mobilities: the same bits. One that moves along z has the mass of a mobility
+// along z, but for the square of its tilt. A replay of the calls knows them.
+TEST(ChangingStep, mobility_stands_for_mass) {
+  for (const bool slides : {false, true}) {
+    std::array<std::vector<Vec3>, 2> motion;
+    for (const bool by_mobility : {false, true}) {
+      Host host;
+      const auto facets = grid(host, 1, 1, -1, 1, -1, 1, flat, true, false, slides || by_mobility ? 2.0 : 0.0);
+      const Index n = host.add({0.1, 0.2, 1.5 * gap}, 1.0, {0, 0, -0.05});
+      Options o;
+      o.gap = gap;
+      o.stiffness_scale = 1.0;
+      Interface i = Interface::nodes_to_surface({n}, {2.0}, Surface(facets), o);
+      set_stiffness(i, 1, 1, 2.0);
+      std::ostringstream log;
+      i.record(log);
+      const std::vector<Index> constrained{0, 0, 0, 0, no_index};
+      std::vector<Mobility> mobility(1);
+      if (slides) mobility[0].add(0.5, {0, 0, 1});
+      std::vector<Index> wrong = constrained;
+      wrong[1] = 1;
+      for (int step = 0; step < 60; ++step) {
+        host.f.assign(host.x.size(), {});
+        host.k.assign(host.x.size(), 0.0);
+        HostState state = host.state();
+        if (by_mobility) {
+          state.mobility = mobility;
+          state.constrained = wrong;
+          EXPECT_THROW(i.search(state), std::invalid_argument);
+          state.constrained = constrained;
+        }
+        i.search(state);
+        i.evaluate(state, host.f, host.k);
+        i.commit(0.1);
+        for (std::size_t k = 0; k < host.x.size(); ++k) {
+          if (host.m[k] > 0.0 && (slides || k == static_cast<std::size_t>(n))) host.v[k] += (0.1 / host.m[k]) * host.f[k];
+          host.x[k] += 0.1 * host.v[k];
+        }
+        host.before = host.dt;
+        host.dt = 0.1;
+        host.time += 0.1;
+      }
+      motion[by_mobility ? 1 : 0] = host.x;
+      std::istringstream in(log.str());
+      EXPECT_EQ(replay(in).different, 0);
+    }
+    EXPECT_TRUE(slides || motion[0] == motion[1]);
+    for (std::size_t k = 0; k < motion[0].size(); ++k) EXPECT_LT(norm(motion[0][k] - motion[1][k]), 1e-8) << k;
   }
 }
 

@@ -40,7 +40,7 @@ TEST(FromBehind, node_passes_and_gets_nothing) {
 
 // A node that comes over a free border at a depth of several gaps climbs the flank of the strip: it is a potential, and the step is ready
 // for it before the node is there. (Unforeseen it made up to 1700
-// times the node's energy, and 28 times that of plates with reversed normals, one larger than the other.)
+// times the node's energy.)
 TEST(FromBehind, flank_of_a_strip_is_foreseen) {
   double worst = 0.0;
   for (const double gap : {0.0, 0.1, 0.3}) {
