@@ -177,9 +177,8 @@ def clamp_and_drop(deck, table_nodes, plate_nodes):
     deck.velocity(1, "fall", (1.0, 0.0, -6.0), 2)
 
 
-def plate_drop(name="plate_drop", table_cells=16, plate_cells=11, end=1e-3, frames=25):
+def plate_drop(name="plate_drop", table_cells=16, plate_cells=11, end=1e-3, frames=25, gap=0.002):
     """Meshes that do not match, shells of different stiffness and thickness, friction: the everyday case of TYPE3."""
-    gap = 0.002
     mesh = Mesh()
     side = 0.24
     table, table_nodes = mesh.plate(lambda u, w: (side * (u - 0.5), side * (w - 0.5), 0.0), table_cells, table_cells)
@@ -193,7 +192,7 @@ def plate_drop(name="plate_drop", table_cells=16, plate_cells=11, end=1e-3, fram
 
     deck = Deck(name, "steel plate dropped on a clamped aluminium plate",
                 ["A steel plate (0.12 m, 2 mm, turned by 20 degrees) falls with 6 m/s, and 1 m/s sideways, on an aluminium plate",
-                 "(0.24 m, 4 mm) that is clamped at its border. TYPE3 contact with a gap of 2 mm and friction 0.1."])
+                 f"(0.24 m, 4 mm) that is clamped at its border. TYPE3 contact with a gap of {1e3 * gap:g} mm and friction 0.1."])
     steel_over_aluminium(deck, mesh, table, plate)
     deck.surface_of_part(1, "clamped plate, normals up", 1)
     deck.surface_of_part(2, "falling plate, normals down", 2)
