@@ -88,7 +88,8 @@ int main(int argc, char** argv) {
   const int n = argc > 1 ? std::atoi(argv[1]) : 30, repetitions = argc > 2 ? std::atoi(argv[2]) : 40;
   std::vector<simd::Isa> isas{simd::Isa::sse2};
   if (__builtin_cpu_supports("avx2")) isas.push_back(simd::Isa::avx2);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) isas.push_back(simd::Isa::avx512);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    isas.push_back(simd::Isa::avx512);
   std::printf("law,iframe,profile,isa,ns_per_element\n");
   for (const int law : {1, 2}) {
     for (const int iframe : {1, 2}) {

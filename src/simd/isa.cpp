@@ -15,8 +15,7 @@ bool has(Isa isa) {
     case Isa::avx2:
       return __builtin_cpu_supports("avx2") != 0;
     case Isa::avx512:
-      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-             __builtin_cpu_supports("avx512vl") != 0;
+      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0;
   }
   return false;
 }

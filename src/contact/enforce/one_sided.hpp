@@ -46,8 +46,8 @@ class OneSided final : public InterfaceModel {
   double stepped_work_ = 0.0, stepped_step_ = 0.0;  ///< made by steps that changed under contact forces
   double initial_elastic_ = 0.0;                    ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
-  bool stepped_ = false;    ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
-  bool committed_ = false;  ///< since the last search: the sides' positions are now those before the step
+  bool stepped_ = false;                 ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
+  bool committed_ = false;               ///< since the last search: the sides' positions are now those before the step
   std::array<Vec3, 2> mean_velocity_{};  ///< of each side's nodes in the last step
 
   void prepare();

@@ -25,7 +25,7 @@ enum : int {
 struct ShellBook {
   alignas(64) double internal[shell_lanes] = {};
   alignas(64) double hourglass[shell_lanes] = {};
-  alignas(64) double on[shell_lanes] = {};  ///< elements with activity
+  alignas(64) double on[shell_lanes] = {};                                                  ///< elements with activity
   alignas(64) double step[shell_lanes] = {1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30};  ///< least step, and
   alignas(64) double block[shell_lanes] = {};                                               ///< the first block that has it
 };
@@ -36,12 +36,12 @@ struct ShellKernelArgs {
   const double* w = nullptr;
   double h = 0.0;  ///< length of the step that ends now
   const ShellSection* section = nullptr;
-  double* state = nullptr;              ///< #B by variables by 8
-  const std::int32_t* nodes = nullptr;  ///< #B by nodes per element by 8; each 3 times the node's index
-  const double* constants = nullptr;    ///< #B by shell_constant::count by 8
-  double* slots = nullptr;              ///< of block 0; group.hpp, SlotLayout
-  std::size_t slot_stride = 0;          ///< from block to block; 0: every block uses the same
-  double* steps = nullptr;              ///< #B by 8: element step, 1e30 for elements that are off
+  double* state = nullptr;                   ///< #B by variables by 8
+  const std::int32_t* nodes = nullptr;       ///< #B by nodes per element by 8; each 3 times the node's index
+  const double* constants = nullptr;         ///< #B by shell_constant::count by 8
+  double* slots = nullptr;                   ///< of block 0; group.hpp, SlotLayout
+  std::size_t slot_stride = 0;               ///< from block to block; 0: every block uses the same
+  double* steps = nullptr;                   ///< #B by 8: element step, 1e30 for elements that are off
   const std::uint16_t* positions = nullptr;  ///< of block 0 (chunks.hpp)
   double* sums = nullptr;                    ///< of the chunk that the blocks belong to; null: slots only
   ShellBook* book = nullptr;                 ///< of that chunk; null: none

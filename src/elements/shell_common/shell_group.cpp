@@ -12,9 +12,9 @@
 namespace abut::elements {
 
 // finish_block.isa.cpp, once per instruction set
-#define ABUT_DECLARE_FINISH(isa)                                  \
-  namespace isa {                                                 \
-  void finish_quad_block(const ShellKernelArgs&, std::size_t);    \
+#define ABUT_DECLARE_FINISH(isa)                                   \
+  namespace isa {                                                  \
+  void finish_quad_block(const ShellKernelArgs&, std::size_t);     \
   void finish_triangle_block(const ShellKernelArgs&, std::size_t); \
   }
 ABUT_DECLARE_FINISH(sse2)

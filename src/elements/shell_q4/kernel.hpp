@@ -65,7 +65,8 @@ struct Q4Motion {
 
 /// First stage: positions, frame, operators.
 template <class T>
-ABUT_INLINE void q4_geometry(const ShellKernelArgs& args, const Q4Parameters& q, double* state, const std::int32_t* nodes, Q4Geometry<T>& g) {
+ABUT_INLINE void q4_geometry(const ShellKernelArgs& args, const Q4Parameters& q, double* state, const std::int32_t* nodes,
+                             Q4Geometry<T>& g) {
   q4_frame(q.frame_v4, gather(T{}, args.x, nodes), gather(T{}, args.x, nodes + 8), gather(T{}, args.x, nodes + 16),
            gather(T{}, args.x, nodes + 24), g);
   if (q.may_freeze) q4_detail::freeze(state + q.at_frozen * shell_lanes, g);

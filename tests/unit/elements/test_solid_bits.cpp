@@ -80,7 +80,8 @@ std::size_t differing(const std::vector<double>& a, const std::vector<double>& b
 std::vector<simd::Isa> available() {
   std::vector<simd::Isa> all{simd::Isa::sse2};
   if (__builtin_cpu_supports("avx2")) all.push_back(simd::Isa::avx2);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) all.push_back(simd::Isa::avx512);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    all.push_back(simd::Isa::avx512);
   return all;
 }
 
