@@ -110,7 +110,8 @@ int ThreadPool::threads() const { return static_cast<int>(impl_->workers.size())
 void ThreadPool::run(std::size_t count, std::size_t grain, Call call, const void* body) {
   if (count == 0) return;
   const std::size_t most = (count + std::max<std::size_t>(grain, 1) - 1) / std::max<std::size_t>(grain, 1);
-  if (most <= 1 || impl_->workers.empty()) {
+  // While a piece is unfinished the caller is in one: a loop within a loop of the same pool.
+  if (most <= 1 || impl_->workers.empty() || impl_->unfinished.load(std::memory_order_acquire) > 0) {
     call(body, 0, count);
     return;
   }

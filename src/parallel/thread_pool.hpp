@@ -21,7 +21,8 @@ class ThreadPool {
   [[nodiscard]] int threads() const;
 
   /// Calls body(begin, end) on disjoint ranges that cover [0, count); returns when all are done.
-  /// The first exception that a body throws is rethrown here after all bodies have ended.
+  /// The first exception that a body throws is rethrown here after all bodies have ended. A loop that a body starts on the same pool runs
+  /// on the thread of that body. Not for two threads that start loops at the same time.
   /// @param grain smallest range worth a thread of its own
   template <class Body>
   void for_ranges(std::size_t count, std::size_t grain, Body&& body) {
