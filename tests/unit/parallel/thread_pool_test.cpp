@@ -103,7 +103,7 @@ TEST(ThreadPool, AnExceptionReachesTheCallerAfterAllPieces) {
   }
 }
 
-// Within a loop: another pool, and loops of one piece on the same pool (they run where they are).
+// Within a loop: another pool, and loops on the same pool (they run where they are).
 TEST(ThreadPool, LoopsWithinALoop) {
   ThreadPool pool(3);
   std::vector<std::vector<int>> visits(24, std::vector<int>(50, 0));
@@ -114,7 +114,7 @@ TEST(ThreadPool, LoopsWithinALoop) {
         for (std::size_t k = first; k < last; ++k) ++visits[row][k];
       };
       inner.for_ranges(50, 1, visit);
-      pool.for_ranges(50, 50, visit);
+      pool.for_ranges(50, 1, visit);
     }
   });
   for (const auto& row : visits) EXPECT_EQ(std::count(row.begin(), row.end(), 2), 50);
