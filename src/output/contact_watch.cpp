@@ -134,13 +134,15 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
     const cycle::InterfaceResult& r = now.interfaces[i];
     const model::Interface& card = now.model->interfaces[i];
     collect(now, i, "contact.crossed", r.crossed, [](std::size_t nodes) {
-      return fmt::format("{} would have jumped through the surface within one step and {} caught; lower the time step or make the gap larger",
-                         counted(nodes), nodes == 1 ? "was" : "were");
+      return fmt::format(
+          "{} would have jumped through the surface within one step and {} caught; lower the time step or make the gap larger",
+          counted(nodes), nodes == 1 ? "was" : "were");
     });
     collect(now, i, "contact.lost_over_border", r.lost, [](std::size_t nodes) {
-      return fmt::format("{} slid over a free border of the other surface while pressed on it and {} held no more; let the surface go on "
-                         "to where they can get",
-                         counted(nodes), nodes == 1 ? "is" : "are");
+      return fmt::format(
+          "{} slid over a free border of the other surface while pressed on it and {} held no more; let the surface go on "
+          "to where they can get",
+          counted(nodes), nodes == 1 ? "is" : "are");
     });
     const double limit = card.gap > 0.0 ? deep_share * card.gap : 0.5 * w.size;
     if (!w.deep && w.geometry != nullptr && r.largest_penetration > limit) {
@@ -205,7 +207,8 @@ void ContactWatch::collect(const cycle::Snapshot& now, std::size_t interface, st
   if (nodes.empty()) return;
   std::vector<Id> ids = ids_of(now, nodes);
   const Id id = now.model->interfaces[interface].id;
-  const auto known = std::find_if(log_->begin(), log_->end(), [&](const RunFinding& f) { return f.interface_id == id && f.diagnostic.code == code; });
+  const auto known =
+      std::find_if(log_->begin(), log_->end(), [&](const RunFinding& f) { return f.interface_id == id && f.diagnostic.code == code; });
   if (known == log_->end()) {
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     const std::size_t count = ids.size();
@@ -219,8 +222,8 @@ void ContactWatch::collect(const cycle::Snapshot& now, std::size_t interface, st
   if (all.size() == known->nodes.size()) return;
   known->nodes = std::move(all);
   known->measure = static_cast<double>(known->nodes.size());
-  known->diagnostic.message = fmt::format("from time {:.6g} (cycle {}) on: {}{}. [{}]", known->time, known->cycle, text(known->nodes.size()),
-                                          first_ids({known->nodes, {}}), code);
+  known->diagnostic.message = fmt::format("from time {:.6g} (cycle {}) on: {}{}. [{}]", known->time, known->cycle,
+                                          text(known->nodes.size()), first_ids({known->nodes, {}}), code);
 }
 
 void ContactWatch::say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text, Where where) {
