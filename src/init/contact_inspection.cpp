@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "init/contact_options.hpp"
-#include "init/contact_setup.hpp"
 #include "init/contact_stiffness.hpp"
+#include "init/face_owners.hpp"
 
 namespace abut::init {
 
@@ -169,29 +170,49 @@ void kinematic_findings(const model::Model& model, const HeldDirections& held, s
          "They move with the body, whose mass then counts for the contact; the interface time step is that of the body.");
 }
 
-/// TYPE7 whose card leaves initial penetrations alone (Inacti 0).
-void penetration_findings(const model::Model& model, std::size_t index, std::span<const Vec3> x, std::vector<contact::Finding>& out) {
-  const model::Interface& card = model.interfaces[index];
+/// Initial penetrations of a TYPE7: Inacti may take them away, and an automatic gap is where they come from unasked.
+void follow_card(const model::Interface& card, double gap, std::vector<contact::Finding>& findings) {
   const auto* t7 = std::get_if<model::InterfaceType7>(&card.type);
-  if (t7 == nullptr || t7->inacti != 0) return;
-  const std::vector<contact::Projection> moves = penetrations(model, static_cast<Index>(index), x);
-  if (moves.empty()) return;
-  contact::Finding f;
-  for (const contact::Projection& m : moves) {
-    f.nodes.push_back(m.node);
-    f.measure = std::max(f.measure, norm(m.by));
+  if (t7 == nullptr) return;
+  const auto is_it = [](const contact::Finding& f) { return f.code == "contact.initial_penetration"; };
+  if (t7->inacti != 0) std::erase_if(findings, is_it);
+  if (t7->gap_given || t7->igap != 0) return;
+  for (contact::Finding& f : findings) {
+    if (!is_it(f)) continue;
+    f.severity = contact::Severity::warning;
+    f.what += fmt::format("; the gap of {:.5g} follows from the thickness (Gapmin is not given)", gap);
   }
-  std::sort(f.nodes.begin(), f.nodes.end());
-  const double gap = both_sides_options(model, card, Profile::standard(), x).gap;
-  f.severity = t7->igap == 0 && f.measure <= 0.1 * gap ? contact::Severity::note : contact::Severity::warning;
-  f.code = "contact.initial_penetration";
-  f.measure_name = "largest penetration";
-  f.what = fmt::format(
-      "{} within the gap{}, up to {:.5g} deep", f.nodes.size() == 1 ? "1 node starts" : fmt::format("{} nodes start", f.nodes.size()),
-      t7->gap_given || t7->igap != 0 ? "" : fmt::format(" of {:.5g} that follows from the thickness (Gapmin is not given)", gap),
-      f.measure);
-  f.advice = "They start with a force: give a Gapmin below the distance of the meshes, or Inacti 5 to begin with the gap that is there.";
-  out.push_back(std::move(f));
+}
+
+/// Of any pair, as far as nodes and facets taken apart can tell.
+double largest_gap(const contact::BothSidesOptions& o) {
+  if (o.node_gap.empty() || o.facet_gap.empty()) return o.gap;
+  const auto largest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
+  double sum = std::min(largest(o.node_gap) + largest(o.facet_gap), o.gap_max);
+  if (!o.node_size.empty()) sum = std::min(sum, largest(o.node_size) + largest(o.facet_size));
+  return std::max(o.gap, sum);
+}
+
+/// Of nodes that no surface describes: mean size (square root of the area) of the shells and free solid faces around each; 0 without.
+std::vector<double> face_sizes(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes, std::span<const Vec3> x) {
+  std::vector<double> sum(static_cast<std::size_t>(model.node_count()), 0.0);
+  std::vector<int> around(sum.size(), 0);
+  for (const auto& [key, elements] : owners.all()) {
+    const auto shell = std::find_if(elements.begin(), elements.end(), [](const model::ElementRef& e) {
+      return e.kind == ElementKind::shell4 || e.kind == ElementKind::shell3;
+    });
+    if (shell == elements.end() && elements.size() != 1) continue;  // between two solids
+    const std::array<Index, 4> n = face_of(model, shell != elements.end() ? *shell : elements.front(), key);
+    const std::size_t corners = key[3] == no_index ? 3 : 4;
+    const double size = std::sqrt(0.5 * norm(cross(x[at(n[2])] - x[at(n[0])], x[at(n[corners - 1])] - x[at(n[1])])));
+    for (std::size_t k = 0; k < corners; ++k) {
+      sum[at(n[k])] += size;
+      ++around[at(n[k])];
+    }
+  }
+  std::vector<double> out;
+  for (const Index n : nodes) out.push_back(around[at(n)] > 0 ? sum[at(n)] / around[at(n)] : 0.0);
+  return out;
 }
 
 Severity severity_of(contact::Severity s) {
@@ -210,7 +231,8 @@ InspectedInterface::InspectedInterface(const model::Model& model, const model::I
   } else if (const auto* t7 = std::get_if<model::InterfaceType7>(&card.type)) {
     surface_[1] = t7->surface;
     nodes_ = t7->nodes;
-    both_sides_ = true;
+    pairs_ = both_sides_options(model, card, Profile::standard(), x);
+    gap_ = largest_gap(*pairs_);
   }
   for (std::size_t k = 0; k < 2; ++k) {
     if (surface_[k] == no_index) continue;
@@ -228,7 +250,9 @@ contact::InspectionInput InspectedInterface::input(std::span<const Vec3> x) cons
   contact::InspectionInput in;
   for (std::size_t k = 0; k < 2; ++k) in.side[k] = {facets_[k], {}, stiffness_[k], outward_[k]};
   in.side[0].nodes = nodes_;
-  in.both_sides = both_sides_;
+  in.both_sides = pairs_.has_value();
+  in.pairs = pairs_ ? &*pairs_ : nullptr;
+  in.one_pass = surface_[0] == no_index;
   in.stiffness_scale = stiffness_scale_;
   in.gap = gap_;
   in.x = x;
@@ -246,17 +270,29 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
     in_body[at(b.main)] = 1;
     for (const Index n : b.nodes) in_body[at(n)] = 1;
   }
-  for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
-    const model::Interface& card = model.interfaces[i];
+  std::optional<FaceOwners> owners;
+  if (std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                  [](const model::Interface& i) { return !std::holds_alternative<model::InterfaceType3>(i.type); })) {
+    owners.emplace(model);
+  }
+  for (const model::Interface& card : model.interfaces) {
     const InspectedInterface inspected(model, card, x);
     contact::InspectionInput input = inspected.input(x);
+    std::vector<double> sizes, stiffness;
+    if (!input.side[0].nodes.empty()) {
+      sizes = face_sizes(model, *owners, input.side[0].nodes, x);
+      stiffness =
+          input.both_sides ? secondary_stiffness(model, input.side[0].nodes, x) : node_stiffness(model, *owners, input.side[0].nodes, x);
+      input.side[0].size = sizes;
+      input.side[0].stiffness = stiffness;
+    }
     input.v = state.v;
     input.mass = state.mass;
     input.element_step = state.element_step;
     std::vector<contact::Finding> findings = contact::inspect(input);
     const std::vector<ContactNode> nodes = contact_nodes(input, x);
     kinematic_findings(model, held, nodes, x, in_body, findings);
-    penetration_findings(model, i, x, findings);
+    follow_card(card, input.gap, findings);
     for (contact::Finding& f : findings) {
       ContactFinding c;
       c.interface_id = card.id;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,7 +60,7 @@ class InspectedInterface {
   std::array<std::vector<double>, 2> stiffness_;
   std::array<std::vector<std::int8_t>, 2> outward_;
   std::span<const Index> nodes_;
-  bool both_sides_ = false;
+  std::optional<contact::BothSidesOptions> pairs_;  ///< TYPE7
   double stiffness_scale_ = 0.2, gap_ = 0.0;
 };
 

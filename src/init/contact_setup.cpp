@@ -131,14 +131,6 @@ std::vector<RunInterface> make_interfaces(const model::Model& model, const Profi
   return out;
 }
 
-std::vector<contact::Projection> penetrations(const model::Model& model, Index interface, std::span<const Vec3> x) {
-  const model::Interface& card = model.interfaces[static_cast<std::size_t>(interface)];
-  std::optional<FaceOwners> owners;
-  if (card.idel != 0) owners.emplace(model);
-  const std::vector<Vec3> at(x.begin(), x.end());
-  return make_interface(model, interface, Profile::standard(), {}, owners ? &*owners : nullptr, at).contact.projections(x, false);
-}
-
 void settle_initial_penetrations(model::Model& model, Diagnostics& findings) {
   if (std::none_of(model.interfaces.begin(), model.interfaces.end(), moves_nodes)) return;
   const FaceOwners owners(model);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace abut::output {
@@ -109,7 +110,7 @@ void ContactWatch::persist(state::Archive& a) {
     a(w.facing_at_start);
     a(w.size);
     a.growing(w.seen);
-    for (bool* said : {&w.turned, &w.deep, &w.made, &w.crossed, &w.lost}) a(*said);
+    for (bool* said : {&w.turned, &w.deep, &w.made}) a(*said);
   });
   a(next_look_);
   a(next_look_cycle_);
@@ -132,21 +133,17 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
     Watched& w = interfaces_[i];
     const cycle::InterfaceResult& r = now.interfaces[i];
     const model::Interface& card = now.model->interfaces[i];
-    if (!w.crossed && !r.crossed.empty()) {
-      w.crossed = true;
-      say(now, i, "contact.crossed", static_cast<double>(r.crossed.size()),
-          fmt::format("{} would have jumped through the surface within one step and {} caught; lower the time step or make the gap larger",
-                      counted(r.crossed.size()), r.crossed.size() == 1 ? "was" : "were"),
-          {ids_of(now, r.crossed), {}});
-    }
-    if (!w.lost && !r.lost.empty()) {
-      w.lost = true;
-      say(now, i, "contact.lost_over_border", static_cast<double>(r.lost.size()),
-          fmt::format("{} slid over a free border of the other surface while pressed on it and {} held no more; let the surface go on "
-                      "to where they can get",
-                      counted(r.lost.size()), r.lost.size() == 1 ? "is" : "are"),
-          {ids_of(now, r.lost), {}});
-    }
+    collect(now, i, "contact.crossed", r.crossed, [](std::size_t nodes) {
+      return fmt::format(
+          "{} would have jumped through the surface within one step and {} caught; lower the time step or make the gap larger",
+          counted(nodes), nodes == 1 ? "was" : "were");
+    });
+    collect(now, i, "contact.lost_over_border", r.lost, [](std::size_t nodes) {
+      return fmt::format(
+          "{} slid over a free border of the other surface while pressed on it and {} held no more; let the surface go on "
+          "to where they can get",
+          counted(nodes), nodes == 1 ? "is" : "are");
+    });
     const double limit = card.gap > 0.0 ? deep_share * card.gap : 0.5 * w.size;
     if (!w.deep && w.geometry != nullptr && r.largest_penetration > limit) {
       w.deep = true;
@@ -203,6 +200,30 @@ void ContactWatch::look(const cycle::Snapshot& now) {
           {{}, segments_away(now, w.geometry->input(x).side[k], facing[k])});
     }
   }
+}
+
+void ContactWatch::collect(const cycle::Snapshot& now, std::size_t interface, std::string code, std::span<const Index> nodes,
+                           const std::function<std::string(std::size_t)>& text) {
+  if (nodes.empty()) return;
+  std::vector<Id> ids = ids_of(now, nodes);
+  const Id id = now.model->interfaces[interface].id;
+  const auto known =
+      std::find_if(log_->begin(), log_->end(), [&](const RunFinding& f) { return f.interface_id == id && f.diagnostic.code == code; });
+  if (known == log_->end()) {
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    const std::size_t count = ids.size();
+    say(now, interface, std::move(code), static_cast<double>(count), text(count), {std::move(ids), {}});
+    return;
+  }
+  std::vector<Id> all;
+  std::sort(ids.begin(), ids.end());
+  std::set_union(known->nodes.begin(), known->nodes.end(), ids.begin(), ids.end(), std::back_inserter(all));
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  if (all.size() == known->nodes.size()) return;
+  known->nodes = std::move(all);
+  known->measure = static_cast<double>(known->nodes.size());
+  known->diagnostic.message = fmt::format("from time {:.6g} (cycle {}) on: {}{}. [{}]", known->time, known->cycle,
+                                          text(known->nodes.size()), first_ids({known->nodes, {}}), code);
 }
 
 void ContactWatch::say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text, Where where) {

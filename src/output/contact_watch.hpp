@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,7 +32,7 @@ class ContactWatch final : public cycle::Sink {
     double size = 0.0;                                   ///< mean facet size of the finer side
     std::vector<Index> nodes;                            ///< of both sides, without repetition
     std::vector<Vec3> seen;                              ///< their positions at the last look
-    bool turned = false, deep = false, made = false, crossed = false, lost = false;
+    bool turned = false, deep = false, made = false;
   };
   std::shared_ptr<RunFindings> log_;
   std::vector<Watched> interfaces_;
@@ -47,6 +48,9 @@ class ContactWatch final : public cycle::Sink {
     std::vector<std::array<Id, 4>> segments;
   };
   void say(const cycle::Snapshot& now, std::size_t interface, std::string code, double measure, std::string text, Where where = {});
+  /// Events of nodes: one finding, with all nodes so far.
+  void collect(const cycle::Snapshot& now, std::size_t interface, std::string code, std::span<const Index> nodes,
+               const std::function<std::string(std::size_t)>& text);
   [[nodiscard]] static std::string first_ids(const Where& where);
 };
 

@@ -1,6 +1,8 @@
 // Options of an interface that repels nodes on both sides of a surface (TYPE7; numerics.md 7.7).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "abut/contact/friction_law.hpp"
@@ -48,6 +50,23 @@ struct BothSidesOptions {
   /// Geometry of quadrilaterals: false, the nearest of their four triangles (the force is the gradient of the stored energy); true, the
   /// reference program's weighted mean over the triangles within reach, with its hourglass-free distribution.
   bool all_pieces = false;
+
+  /// Gap of the pair of a node (position in the list of nodes) and a facet (position as listed by the host).
+  [[nodiscard]] double pair_gap(std::size_t node, std::size_t facet) const {
+    if (node_gap.empty()) return gap;
+    double sum = std::min(node_gap[node] + facet_gap[facet], gap_max);
+    if (!node_size.empty()) sum = std::min(sum, node_size[node] + facet_size[facet]);
+    return std::max(gap, sum);
+  }
+  /// K of a pair of K_m and K_s.
+  [[nodiscard]] double pair_stiffness(double facet, double node) const {
+    if (stiffness == Stiffness::facet) return facet;
+    double k = facet + node > 0.0 ? facet * node / (facet + node) : 0.0;
+    if (stiffness == Stiffness::mean) k = 0.5 * (facet + node);
+    if (stiffness == Stiffness::larger) k = std::max(facet, node);
+    if (stiffness == Stiffness::smaller) k = std::min(facet, node);
+    return std::clamp(k, stiffness_min, stiffness_max);
+  }
 
   [[nodiscard]] bool rubs() const { return friction > 0.0 || friction_law.model != FrictionLaw::Model::coulomb; }
 };

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "abut/contact/both_sides.hpp"
 #include "abut/contact/surface.hpp"
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
@@ -44,16 +45,22 @@ struct Finding {
 struct InspectedSide {
   std::span<const Facet> facets;      ///< #F; empty: a set of nodes
   std::span<const Index> nodes;       ///< a set of nodes (host indices); used when facets is empty
-  std::span<const double> stiffness;  ///< #F own stiffness (E t, B A^2/V); empty: not known
+  std::span<const double> stiffness;  ///< own stiffness, #F (E t, B A^2/V) or, for a set of nodes, #nodes; empty: not known
   /// #F, +1: the normal points out of the solid behind the facet, -1: into it, 0: a shell or not known. Empty: not known.
   std::span<const std::int8_t> outward;
+  /// For a set of nodes, #nodes: size of the faces of the mesh around the node (a length); 0 where there are none. Empty: not known.
+  std::span<const double> size = {};
 };
 
 struct InspectionInput {
   std::array<InspectedSide, 2> side;
-  bool both_sides = false;       ///< facets repel on both sides (TYPE7): normals do not matter
+  bool both_sides = false;  ///< facets of side 1 repel nodes of side 0 on both sides (TYPE7): normals do not matter
+  /// Of a both-sided interface: gap and stiffness of pairs, with arrays for the nodes and facets as listed here. Null: `gap`, and the
+  /// facet's stiffness.
+  const BothSidesOptions* pairs = nullptr;
+  bool one_pass = false;         ///< only the nodes of side 0 are held (TYPE5; always so with both_sides)
   double stiffness_scale = 0.2;  ///< s (T14)
-  double gap = 0.0;              ///< length
+  double gap = 0.0;              ///< length; with `pairs` the largest of any pair
   std::span<const Vec3> x;       ///< #N by 3 positions
   std::span<const Vec3> v;       ///< #N by 3 velocities; empty: at rest
   std::span<const double> mass;  ///< #N nodal masses; empty: not known

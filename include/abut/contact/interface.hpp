@@ -78,7 +78,7 @@ class Interface {
   /// @param side 0 first, 1 second. Of nodes_to_surface and both_sides 1 is the surface and 0 the held nodes: stiffness and active
   ///        are then #nodes (an inactive node is let go), thickness is not used.
   /// Spans that are empty leave what was set before. May be called at any time.
-  /// @throws std::invalid_argument on a wrong length, a negative or non-finite stiffness
+  /// @throws std::invalid_argument on a wrong length, a negative or non-finite stiffness or thickness
   void set_surface(int side, const SurfaceState& state);
 
   /// Moves that take initial penetrations away, for the host to apply before its masses and reference geometry are made

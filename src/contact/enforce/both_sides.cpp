@@ -71,13 +71,7 @@ void BothSides::set_surface(int side, const SurfaceState& state) {
   stale_ = true;
 }
 
-double BothSides::pair_gap(Index node, Index facet) const {
-  if (!variable_gap()) return options_.gap;
-  const std::size_t f = at(surface_.listed(facet));
-  double gap = std::min(options_.node_gap[at(node)] + options_.facet_gap[f], options_.gap_max);
-  if (!options_.node_size.empty()) gap = std::min(gap, options_.node_size[at(node)] + options_.facet_size[f]);
-  return std::max(options_.gap, gap);
-}
+double BothSides::pair_gap(Index node, Index facet) const { return options_.pair_gap(at(node), at(surface_.listed(facet))); }
 
 double BothSides::reach(Index node) const {
   if (gone_[at(node)] != 0 || !held_.node_active(node)) return -1.0;
@@ -87,24 +81,7 @@ double BothSides::reach(Index node) const {
 
 double BothSides::pair_stiffness(Index node, Index facet) const {
   if (off_[at(facet)] != 0) return 0.0;
-  const double main = surface_.facet_stiffness(facet);
-  if (options_.stiffness == BothSidesOptions::Stiffness::facet) return main;
-  const double own = held_.node_stiffness(node);
-  double k = 0.0;
-  switch (options_.stiffness) {
-    case BothSidesOptions::Stiffness::mean:
-      k = 0.5 * (main + own);
-      break;
-    case BothSidesOptions::Stiffness::larger:
-      k = std::max(main, own);
-      break;
-    case BothSidesOptions::Stiffness::smaller:
-      k = std::min(main, own);
-      break;
-    default:
-      k = main + own > 0.0 ? main * own / (main + own) : 0.0;
-  }
-  return std::clamp(k, options_.stiffness_min, options_.stiffness_max);
+  return options_.pair_stiffness(surface_.facet_stiffness(facet), held_.node_stiffness(node));
 }
 
 BothSides::Met BothSides::meet(const Side& held, const Side& surface, Index node, Index facet, double gap) const {

@@ -106,7 +106,9 @@ class Looker {
 
 }  // namespace
 
-BothViews look(const std::array<Shape, 2>& shapes, double gap) {
+namespace {
+
+BothViews empty_views(const std::array<Shape, 2>& shapes) {
   BothViews out;
   for (std::size_t k = 0; k < 2; ++k) {
     const auto n = at(shapes[k].count());
@@ -114,22 +116,47 @@ BothViews look(const std::array<Shape, 2>& shapes, double gap) {
     out.side[k].overlaps.assign(n, 0);
     out.side[k].alike.assign(n, 0);
   }
+  return out;
+}
+
+double reach_of(const std::array<Shape, 2>& shapes, double smallest, double gap) {
+  double size = 1e300;
+  for (const Shape& s : shapes) {
+    if (!s.is_nodes()) size = std::min(size, s.mean_size());
+  }
+  return smallest + std::max(gap, 2.0 * size);
+}
+
+}  // namespace
+
+BothViews look(const std::array<Shape, 2>& shapes, double gap) {
+  BothViews out = empty_views(shapes);
   if (shapes[0].count() == 0 || shapes[1].count() == 0) return out;
   const std::array<std::vector<NearPoint>, 2> seen{sights(shapes[0], shapes[1]), sights(shapes[1], shapes[0])};
   double squared = 1e300;
   for (const auto& points : seen) {
     for (const NearPoint& p : points) squared = std::min(squared, p.squared);
   }
-  const double best = std::sqrt(squared);
-  out.smallest = best;
-  double size = 1e300;
-  for (const Shape& s : shapes) {
-    if (!s.is_nodes()) size = std::min(size, s.mean_size());
-  }
-  out.reach = best + std::max(gap, 2.0 * size);
+  out.smallest = std::sqrt(squared);
+  out.reach = reach_of(shapes, out.smallest, gap);
   for (std::size_t k = 0; k < 2; ++k) {
     if (!shapes[k].is_nodes()) out.side[k] = Looker(shapes[k], shapes[1 - k], seen[k], seen[1 - k], out.reach).run();
   }
+  return out;
+}
+
+BothViews look_unsigned(const std::array<Shape, 2>& shapes, std::span<const Vec3> x, double gap) {
+  BothViews out = empty_views(shapes);
+  if (shapes[0].count() == 0 || shapes[1].count() == 0) return out;
+  double squared = 1e300;
+  for (const Index n : shapes[0].nodes()) {
+    // Never farther than what is known already: the search stays short.
+    const NearPoint p = shapes[1].nearest(x[at(n)], squared < 1e300 ? std::sqrt(squared) : 1e150, n);
+    if (p.found()) squared = std::min(squared, p.squared);
+  }
+  if (squared == 1e300) return out;
+  out.smallest = std::sqrt(squared);
+  out.reach = reach_of(shapes, out.smallest, gap);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "contact/inspect/shape.hpp"
@@ -23,6 +24,8 @@ struct BothViews {
 };
 
 [[nodiscard]] BothViews look(const std::array<Shape, 2>& shapes, double gap);
+/// Where facets repel on both sides: only the reach and the smallest distance of a node of side 0 to the facets that it is no corner of.
+[[nodiscard]] BothViews look_unsigned(const std::array<Shape, 2>& shapes, std::span<const Vec3> x, double gap);
 
 /// Net answer of a piece in one of its two orientations, by area.
 struct PieceVote {

@@ -36,16 +36,12 @@ std::string short_number(double value) {
 
 std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimits& limits) {
   const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
-  BothViews views;
-  for (std::size_t k = 0; k < 2; ++k) views.side[k].facing.facet.assign(static_cast<std::size_t>(shapes[k].count()), 0);
-  if (!input.both_sides) views = look(shapes, input.gap);
+  const BothViews views = input.both_sides ? look_unsigned(shapes, input.x, input.gap) : look(shapes, input.gap);
   std::vector<Finding> out;
   const InspectionContext c{input, limits, shapes, views, out};
   find_topology(c);
-  if (!input.both_sides) {
-    find_orientation(c);
-    find_nearness(c);
-  }
+  if (!input.both_sides) find_orientation(c);
+  find_nearness(c);
   find_shape(c);
   const auto rank = [](const Finding& f) { return std::find(std::begin(codes), std::end(codes), f.code) - std::begin(codes); };
   std::stable_sort(out.begin(), out.end(), [&](const Finding& a, const Finding& b) {

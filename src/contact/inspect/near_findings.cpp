@@ -14,8 +14,10 @@ namespace {
 /// A node measured against the other side.
 struct Seen {
   Index node, facet;
-  double distance;  // signed
+  double distance;  // signed; where facets repel on both sides >= 0
   double closing;   // speed of approach, > 0 when the distance shrinks
+  double gap;
+  std::size_t place;  // of the node in the shape's nodes()
 };
 
 /// Everything that pass `k` (nodes of side k against the facets of the other one) sees within reach.
@@ -24,29 +26,62 @@ struct PassView {
   std::vector<Index> blind;
 };
 
+/// Positions of a shape's nodes() in the list that the host gave for a set of nodes.
+std::vector<std::size_t> listed_places(const Shape& s) {
+  std::vector<std::size_t> out(s.nodes().size(), 0);
+  for (std::size_t i = 0; i < s.side().nodes.size(); ++i) {
+    const auto found = std::lower_bound(s.nodes().begin(), s.nodes().end(), s.side().nodes[i]);
+    out[static_cast<std::size_t>(found - s.nodes().begin())] = i;
+  }
+  return out;
+}
+
+struct SignedPoint {
+  ClosestPoint closest;
+  Vec3 normal;  // from the facet's point to the node, or the facet's
+  double distance = 0.0;
+};
+
+SignedPoint measure(const InspectionContext& c, const Side& surface, Index facet, const Vec3& x) {
+  if (!c.input.both_sides) {
+    const ClosestPoint closest = closest_point(surface.patch(facet), x);
+    const Measure m = signed_measure(surface, facet, closest, x);
+    return {closest, m.normal, m.distance};
+  }
+  Patch patch = surface.patch(facet);
+  patch.borders = 0;  // such a facet ends where it ends: its gap is round about its rim
+  const ClosestPoint closest = closest_point(patch, x);
+  const double distance = std::sqrt(closest.squared_distance);
+  return {closest, distance > 0.0 ? (x - closest.point) / distance : normal_at(patch, closest.s, closest.t), distance};
+}
+
 PassView view_of(const InspectionContext& c, std::size_t k, const Side& surface) {
   PassView out;
+  const Shape& own = c.shapes[k];
   const Shape& other = c.shapes[1 - k];
-  for (const Index n : c.shapes[k].nodes()) {
+  const bool of_pairs = c.input.both_sides && c.input.pairs != nullptr && own.is_nodes();
+  const std::vector<std::size_t> listed = of_pairs ? listed_places(own) : std::vector<std::size_t>();
+  for (std::size_t i = 0; i < own.nodes().size(); ++i) {
+    const Index n = own.nodes()[i];
     const Vec3 x = c.input.x[at(n)];
-    const NearPoint p = other.nearest(x, c.views.reach);
+    const NearPoint p = other.nearest(x, c.views.reach, c.input.both_sides ? n : no_index);
     if (!p.found() || squared_norm(other.normal(p.item)) == 0.0) {
       out.blind.push_back(n);
       continue;
     }
-    const ClosestPoint closest = closest_point(surface.patch(p.item), x);
-    if (closest.beyond) {
+    const SignedPoint m = measure(c, surface, p.item, x);
+    if (m.closest.beyond) {
       out.blind.push_back(n);
       continue;
     }
-    const Measure m = signed_measure(surface, p.item, closest, x);
     double closing = 0.0;
     if (!c.input.v.empty()) {
       Vec3 there;
-      for (std::size_t i = 0; i < 4; ++i) there += closest.weight[i] * c.input.v[at(other.facet(p.item).node[i])];
+      for (std::size_t j = 0; j < 4; ++j) there += m.closest.weight[j] * c.input.v[at(other.facet(p.item).node[j])];
       closing = dot(there - c.input.v[at(n)], m.normal);
     }
-    out.seen.push_back({n, p.item, m.distance, closing});
+    const double gap = of_pairs ? c.input.pairs->pair_gap(listed[i], at(p.item)) : c.input.gap;
+    out.seen.push_back({n, p.item, m.distance, closing, gap, i});
   }
   return out;
 }
@@ -63,34 +98,16 @@ std::vector<Bar> histogram(const std::vector<double>& values) {
   return out;
 }
 
-/// Means over the facets of a side that the other side's nodes see.
-struct NearFacets {
-  double size = 0.0, smallest = 1e300, stiffness = 0.0;
-  int count = 0;
-};
-
-NearFacets near_facets(const Shape& s, const PassView& seen_by) {
-  std::vector<std::uint8_t> marked(at(s.count()), 0);
-  NearFacets out;
-  for (const Seen& seen : seen_by.seen) {
-    if (std::exchange(marked[at(seen.facet)], std::uint8_t{1}) != 0) continue;
-    const double size = std::sqrt(s.area(seen.facet));
-    out.size += size;
-    out.smallest = std::min(out.smallest, size);
-    if (!s.side().stiffness.empty()) out.stiffness += s.side().stiffness[at(seen.facet)];
-    ++out.count;
-  }
-  if (out.count > 0) {
-    out.size /= out.count;
-    out.stiffness /= out.count;
-  }
-  return out;
-}
-
-/// Own stiffness of the nodes of a side: a quarter (third) of each facet around them, by position in nodes().
+/// Own stiffness of the nodes of a side: a quarter (third) of each facet around them, or as given for a set of nodes; by position in
+/// nodes(). Empty: not known.
 std::vector<double> node_stiffness(const Shape& s) {
-  std::vector<double> sum(s.nodes().size(), 0.0);
   if (s.side().stiffness.empty()) return {};
+  std::vector<double> sum(s.nodes().size(), 0.0);
+  if (s.is_nodes()) {
+    const std::vector<std::size_t> listed = listed_places(s);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = s.side().stiffness[listed[i]];
+    return sum;
+  }
   for (Index f = 0; f < s.count(); ++f) {
     const int corners = s.facet(f).corners();
     for (int i = 0; i < corners; ++i) {
@@ -101,12 +118,79 @@ std::vector<double> node_stiffness(const Shape& s) {
   return sum;
 }
 
+/// Means over the part of a side that is near the other one; 0: not known.
+struct NearPart {
+  double size = 0.0, stiffness = 0.0;
+  double smallest = 1e300;  ///< facet (its shortest side where facets repel on both sides: the theory's measure for that gap)
+};
+
+double shortest_side(const Shape& s, Index f) {
+  const int corners = s.facet(f).corners();
+  double shortest = 1e300;
+  for (int e = 0; e < corners; ++e) shortest = std::min(shortest, norm(s.corner(f, (e + 1) % corners) - s.corner(f, e)));
+  return shortest;
+}
+
+/// @param own      what the side's own nodes see: the facets around them are near
+/// @param seen_by  what the other side's nodes see of its facets
+NearPart near_facets(const Shape& s, bool both_sides, const std::optional<PassView>& own, const std::optional<PassView>& seen_by) {
+  std::vector<std::uint8_t> near(at(s.count()), 0);
+  if (seen_by) {
+    for (const Seen& seen : seen_by->seen) near[at(seen.facet)] = 1;
+  }
+  if (own) {
+    std::vector<std::uint8_t> sees(s.nodes().size(), 0);
+    for (const Seen& seen : own->seen) sees[seen.place] = 1;
+    for (Index f = 0; f < s.count(); ++f) {
+      for (const Index n : s.facet(f).node) {
+        const auto found = std::lower_bound(s.nodes().begin(), s.nodes().end(), n);
+        if (sees[static_cast<std::size_t>(found - s.nodes().begin())] != 0) near[at(f)] = 1;
+      }
+    }
+  }
+  NearPart out;
+  int count = 0;
+  for (Index f = 0; f < s.count(); ++f) {
+    if (near[at(f)] == 0) continue;
+    const double size = std::sqrt(s.area(f));
+    out.size += size;
+    out.smallest = std::min(out.smallest, both_sides ? shortest_side(s, f) : size);
+    if (!s.side().stiffness.empty()) out.stiffness += s.side().stiffness[at(f)];
+    ++count;
+  }
+  if (count > 0) {
+    out.size /= count;
+    out.stiffness /= count;
+  }
+  return out;
+}
+
+NearPart near_nodes(const Shape& s, const PassView& own) {
+  const std::vector<std::size_t> listed = listed_places(s);
+  NearPart out;
+  int sized = 0, stiff = 0;
+  for (const Seen& seen : own.seen) {
+    const std::size_t i = listed[seen.place];
+    if (!s.side().size.empty() && s.side().size[i] > 0.0) {
+      out.size += s.side().size[i];
+      ++sized;
+    }
+    if (!s.side().stiffness.empty() && s.side().stiffness[i] > 0.0) {
+      out.stiffness += s.side().stiffness[i];
+      ++stiff;
+    }
+  }
+  if (sized > 0) out.size /= sized;
+  if (stiff > 0) out.stiffness /= stiff;
+  return out;
+}
+
 class Nearness {
  public:
   explicit Nearness(const InspectionContext& c) : c_(c) {
     for (std::size_t k = 0; k < 2; ++k) {
       const Shape& surface = c.shapes[1 - k];
-      if (surface.is_nodes()) continue;
+      if (surface.is_nodes() || (k == 1 && one_pass())) continue;
       std::vector<Facet> facets(surface.side().facets.begin(), surface.side().facets.end());
       Side side(Surface(std::move(facets)), false);
       side.set({}, false);
@@ -134,6 +218,11 @@ class Nearness {
   const InspectionContext& c_;
   std::array<std::optional<PassView>, 2> pass_;
 
+  [[nodiscard]] bool one_pass() const {
+    return c_.input.both_sides || c_.input.one_pass || c_.shapes[0].is_nodes() || c_.shapes[1].is_nodes();
+  }
+  [[nodiscard]] bool is_corner(Index node, const Shape& s) const { return std::binary_search(s.nodes().begin(), s.nodes().end(), node); }
+
   void out_of_reach() const {
     Finding& f = c_.add(Severity::warning, "contact.out_of_reach", -1);
     f.measure_name = "smallest distance";
@@ -147,9 +236,9 @@ class Nearness {
     const PassView& pass = *pass_[k];
     const Facing& facing = c_.views.side[1 - k].facing;
     const double size = c_.shapes[1 - k].mean_size();
-    std::vector<double> depths, clearances;
+    std::vector<double> depths, penetrations, clearances;
     std::vector<Index> behind, within;
-    double deepest = 0.0, most = 0.0;
+    double deepest = 0.0, share = 0.0;
     for (const Seen& seen : pass.seen) {
       if (facing.facet[at(seen.facet)] < 0) continue;  // the wrong way round: its distances mean nothing
       if (seen.distance < -1e-6 * size) {
@@ -157,11 +246,12 @@ class Nearness {
         behind.push_back(seen.node);
         deepest = std::max(deepest, -seen.distance);
         depths.push_back(-seen.distance);
-      } else if (seen.distance < c_.input.gap) {
+      } else if (seen.distance < seen.gap) {
         within.push_back(seen.node);
-        most = std::max(most, c_.input.gap - seen.distance);
-      } else {
-        clearances.push_back(seen.distance - c_.input.gap);
+        penetrations.push_back(seen.gap - seen.distance);
+        share = std::max(share, penetrations.back() / seen.gap);
+      } else if (!c_.input.both_sides || !is_corner(seen.node, c_.shapes[1 - k])) {  // a surface is not out of contact with itself
+        clearances.push_back(seen.distance - seen.gap);
       }
     }
     const int side = static_cast<int>(k);
@@ -176,17 +266,16 @@ class Nearness {
       f.nodes = std::move(behind);
     }
     if (!within.empty()) {
-      const double share = most / c_.input.gap;
-      std::vector<double> penetrations;
-      for (const Seen& seen : pass.seen) {
-        if (seen.distance >= 0.0 && seen.distance < c_.input.gap) penetrations.push_back(c_.input.gap - seen.distance);
-      }
       Finding& f = c_.add(share > 0.5 ? Severity::warning : Severity::note, "contact.initial_penetration", side);
       f.measure_name = "largest penetration over gap";
       f.measure = share;
       f.what = counted(within.size(), "node of this side starts", "nodes of this side start") + " within the gap, the deepest " +
                short_number(100.0 * share) + " % of it";
-      f.advice = "They start with a force: make the gap smaller than the distance of the meshes, or accept the stored energy CE at time 0.";
+      f.advice = c_.input.both_sides
+                     ? "They start with a force unless Inacti says otherwise: make the gap smaller than the distance of the "
+                       "meshes, or let it begin at what is there (Inacti 5 or 6)."
+                     : "They start with a force: make the gap smaller than the distance of the meshes, or accept the stored "
+                       "energy CE at time 0.";
       f.histogram = histogram(penetrations);
       f.nodes = std::move(within);
     }
@@ -199,7 +288,7 @@ class Nearness {
       f.advice = "Nothing to do if the bodies are to meet later.";
       f.histogram = histogram(clearances);
     }
-    if (!pass.blind.empty()) {
+    if (!pass.blind.empty() && !c_.input.both_sides) {  // sets of nodes are ample there by custom
       Finding& f = c_.add(Severity::note, "contact.blind_nodes", side);
       f.measure_name = "share of nodes";
       f.measure = static_cast<double>(pass.blind.size()) / static_cast<double>(c_.shapes[k].nodes().size());
@@ -210,42 +299,57 @@ class Nearness {
   }
 
   void sizes_and_stiffness() const {
-    if (c_.shapes[0].is_nodes() || c_.shapes[1].is_nodes()) {
-      gap_against(1e300, c_.shapes[0].is_nodes() ? near_facets(c_.shapes[1], *pass_[0]) : near_facets(c_.shapes[0], *pass_[1]));
-      return;
-    }
-    const std::array<NearFacets, 2> near{near_facets(c_.shapes[0], *pass_[1]), near_facets(c_.shapes[1], *pass_[0])};
-    gap_against(near[0].smallest, near[1]);
-    if (near[0].count == 0 || near[1].count == 0) return;
+    const auto part = [this](std::size_t k) {
+      const Shape& s = c_.shapes[k];
+      if (s.is_nodes()) return pass_[k] ? near_nodes(s, *pass_[k]) : NearPart{};
+      return near_facets(s, c_.input.both_sides, pass_[k], pass_[1 - k]);
+    };
+    const std::array<NearPart, 2> near{part(0), part(1)};
+    gap_against(std::min(near[0].smallest, near[1].smallest));
+    if (near[0].size > 0.0 && near[1].size > 0.0) compare_sizes(near);
+    if (near[0].stiffness > 0.0 && near[1].stiffness > 0.0) compare_stiffness(near);
+  }
+
+  void compare_sizes(const std::array<NearPart, 2>& near) const {
     const std::size_t coarse = near[0].size >= near[1].size ? 0 : 1;
     const double ratio = near[coarse].size / near[1 - coarse].size;
-    if (ratio > c_.limits.size_ratio) {
-      Finding& f = c_.add(Severity::warning, "contact.size_ratio", static_cast<int>(coarse));
-      f.measure_name = "mean segment size over the other side's";
-      f.measure = ratio;
-      f.what = "its segments near the other side are " + short_number(ratio) + " times as large as those they meet";
-      f.advice = "Refine the coarse side: one of its segments takes the force of many nodes and bends over its whole length.";
-    }
-    if (!(near[0].stiffness > 0.0 && near[1].stiffness > 0.0)) return;
+    if (ratio <= c_.limits.size_ratio) return;
+    Finding& f = c_.add(Severity::warning, "contact.size_ratio", static_cast<int>(coarse));
+    f.measure_name = "mean segment size over the other side's";
+    f.measure = ratio;
+    f.what = "its segments near the other side are " + short_number(ratio) + " times as large as those they meet";
+    f.advice = one_pass() && coarse == 0
+                   ? "Refine the held side: between its nodes the segments of the other one pass through without a force."
+                   : "Refine the coarse side: one of its segments takes the force of many nodes and bends over its whole length.";
+  }
+
+  void compare_stiffness(const std::array<NearPart, 2>& near) const {
     const std::size_t stiff = near[0].stiffness >= near[1].stiffness ? 0 : 1;
     const double stiffness_ratio = near[stiff].stiffness / near[1 - stiff].stiffness;
     if (stiffness_ratio <= c_.limits.stiffness_ratio) return;
-    // T15: K = s r/(1 + r) K_soft. With s (1 + r)/2 the stiff side again sees s/2 of its own stiffness, as between equals;
-    // at s = 1 the spring is as stiff as the soft side.
-    const double suggested = std::min(1.0, 0.5 * c_.input.stiffness_scale * (1.0 + stiffness_ratio));
     Finding& f = c_.add(Severity::warning, "contact.stiffness_ratio", static_cast<int>(stiff));
     f.measure_name = "stiffness over the other side's";
     f.measure = stiffness_ratio;
-    f.what = "it is " + short_number(stiffness_ratio) + " times as stiff as the other side, so the spring between them has " +
-             short_number(100.0 * c_.input.stiffness_scale * stiffness_ratio / (1.0 + stiffness_ratio)) + " % of the soft side's stiffness";
+    f.what = "it is " + short_number(stiffness_ratio) + " times as stiff as the other side, so the spring between them has ";
+    if (c_.input.both_sides) {
+      f.what +=
+          short_number(pair_spring(near[1].stiffness, near[0].stiffness) / near[1 - stiff].stiffness) + " times the soft side's stiffness";
+      f.advice = "Choose Istf for the pair: 4 takes the softer side, 5 both in series; 0 and 1 look at the main surface alone.";
+      return;
+    }
+    // T15: K = s r/(1 + r) K_soft. With s (1 + r)/2 the stiff side again sees s/2 of its own stiffness, as between equals;
+    // at s = 1 the spring is as stiff as the soft side.
+    const double suggested = std::min(1.0, 0.5 * c_.input.stiffness_scale * (1.0 + stiffness_ratio));
+    f.what +=
+        short_number(100.0 * c_.input.stiffness_scale * stiffness_ratio / (1.0 + stiffness_ratio)) + " % of the soft side's stiffness";
     f.advice = suggested > 1.01 * c_.input.stiffness_scale
                    ? "If nodes sink in too far, raise Stfac to about " + short_number(suggested) + "; the time step may fall."
                    : "Stfac is as high as the theory suggests; watch the largest penetration.";
   }
 
-  void gap_against(double smallest, const NearFacets& other) const {
-    smallest = std::min(smallest, other.smallest);
-    if (!(smallest < 1e300) || c_.input.gap <= c_.limits.gap_of_size * smallest) return;
+  void gap_against(double smallest) const {
+    // The default gap of shells may be just half of the shortest side.
+    if (!(smallest < 1e300) || c_.input.gap <= c_.limits.gap_of_size * (1.0 + 1e-9) * smallest) return;
     Finding& f = c_.add(Severity::warning, "contact.gap_large", -1);
     f.measure_name = "gap over smallest segment size";
     f.measure = c_.input.gap / smallest;
@@ -277,23 +381,36 @@ class Nearness {
     f.advice = "Make the gap larger, or expect the contact to lower the time step.";
   }
 
+  /// K0 of a pair where facets repel on both sides.
+  [[nodiscard]] double pair_spring(double facet, double node) const {
+    const double main = c_.input.stiffness_scale * facet;
+    return 0.5 * (c_.input.pairs != nullptr ? c_.input.pairs->pair_stiffness(main, node) : main);
+  }
+
+  /// What the node of a pair feels (numerics.md 2.3: h <= sqrt(2 m/K)): its own spring and, from the other pass, about as much again.
+  [[nodiscard]] double spring_of(std::size_t k, const Seen& seen, double own) const {
+    const std::span<const double> stiffness = c_.shapes[1 - k].side().stiffness;
+    const double facet = stiffness.empty() ? 0.0 : stiffness[at(seen.facet)];
+    if (c_.input.both_sides) {
+      const double stretch = seen.distance < seen.gap ? seen.gap / std::max(seen.distance, 1e-3 * seen.gap) : 1.0;
+      return pair_spring(facet, own) * stretch * stretch;  // numerics.md 7.7.3: K0 (g/(g - p))^2
+    }
+    return facet + own > 0.0 ? (one_pass() ? 1.0 : 2.0) * c_.input.stiffness_scale * facet * own / (facet + own) : 0.0;
+  }
+
   void step() const {
     const double h = c_.input.element_step;
     if (!(h > 0.0) || c_.input.mass.empty()) return;
     double smallest = 1e300;
     Index node = no_index;
     for (std::size_t k = 0; k < 2; ++k) {
-      if (!pass_[k] || c_.shapes[k].is_nodes() || c_.shapes[1 - k].side().stiffness.empty()) continue;
+      if (!pass_[k]) continue;
       const std::vector<double> own = node_stiffness(c_.shapes[k]);
-      if (own.empty()) continue;
       for (const Seen& seen : pass_[k]->seen) {
-        const auto place = std::lower_bound(c_.shapes[k].nodes().begin(), c_.shapes[k].nodes().end(), seen.node);
-        const double k1 = own[static_cast<std::size_t>(place - c_.shapes[k].nodes().begin())];
-        const double k2 = c_.shapes[1 - k].side().stiffness[at(seen.facet)];
+        const double spring = spring_of(k, seen, own.empty() ? 0.0 : own[seen.place]);
         const double m = c_.input.mass[at(seen.node)];
-        if (!(k1 + k2 > 0.0) || !(m > 0.0)) continue;
-        // The node's own spring and, from the other pass, about as much again (numerics.md 2.3: h <= sqrt(2 m/K)).
-        const double step = std::sqrt(2.0 * m / (2.0 * c_.input.stiffness_scale * k1 * k2 / (k1 + k2)));
+        if (!(spring > 0.0) || !(m > 0.0)) continue;
+        const double step = std::sqrt(2.0 * m / spring);
         if (step < smallest) {
           smallest = step;
           node = seen.node;

@@ -228,7 +228,7 @@ int Shape::outward(Index f) const {
   return closed(piece(f));
 }
 
-NearPoint Shape::nearest(const Vec3& from, double radius) const {
+NearPoint Shape::nearest(const Vec3& from, double radius, Index except) const {
   NearPoint best;
   tree_.search(from, radius * radius, [&](Index i, double& limit) {
     if (squared_distance(box_[at(i)], from) > limit) return;
@@ -242,6 +242,7 @@ NearPoint Shape::nearest(const Vec3& from, double radius) const {
       take(centre_[at(i)]);
       return;
     }
+    if (except != no_index && std::find(facet(i).node.begin(), facet(i).node.end(), except) != facet(i).node.end()) return;
     take(closest_on_triangle(from, corner(i, 0), corner(i, 1), corner(i, 2)));
     if (!facet(i).is_triangle()) take(closest_on_triangle(from, corner(i, 0), corner(i, 2), corner(i, 3)));
   });

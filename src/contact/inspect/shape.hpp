@@ -63,8 +63,8 @@ class Shape {
   /// +1 the normal looks out of a body (solid behind, or a closed piece), -1 into it, 0 not known.
   [[nodiscard]] int outward(Index f) const;
 
-  /// Nearest point within `radius`.
-  [[nodiscard]] NearPoint nearest(const Vec3& from, double radius) const;
+  /// Nearest point within `radius`, on facets that do not have the node `except` for a corner.
+  [[nodiscard]] NearPoint nearest(const Vec3& from, double radius, Index except = no_index) const;
   /// True when a facet other than `except` crosses the segment from a to b (ends excluded).
   [[nodiscard]] bool hides(const Vec3& a, const Vec3& b, Index except) const;
 

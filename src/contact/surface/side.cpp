@@ -60,6 +60,11 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
       throw std::invalid_argument("contact: stiffness " + std::to_string(i) + " is not a finite number >= 0");
     }
   }
+  for (std::size_t i = 0; i < state.thickness.size(); ++i) {
+    if (!(state.thickness[i] >= 0.0) || !std::isfinite(state.thickness[i])) {
+      throw std::invalid_argument("contact: thickness " + std::to_string(i) + " is not a finite number >= 0");
+    }
+  }
   if (!facets) {
     if (!state.stiffness.empty()) node_stiffness_.assign(state.stiffness.begin(), state.stiffness.end());
     for (std::size_t i = 0; i < state.active.size(); ++i) node_active_[i] = state.active[i];

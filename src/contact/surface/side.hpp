@@ -22,7 +22,7 @@ class Side {
   Side(std::vector<Index> nodes, std::vector<double> stiffness);
 
   /// Facet values in the order in which the host listed its facets; for nodes without facets: stiffness and active per node.
-  /// @throws std::invalid_argument on a wrong length or a negative or non-finite stiffness
+  /// @throws std::invalid_argument on a wrong length or a negative or non-finite stiffness or thickness
   void set(const SurfaceState& state, bool third_node_twice);
 
   [[nodiscard]] const Surface& surface() const { return surface_; }

@@ -18,11 +18,13 @@ struct Pair {
   std::array<std::vector<double>, 2> stiffness;
   std::array<std::vector<std::int8_t>, 2> outward;
   double gap = 0.0, stiffness_scale = 0.2, element_step = 0.0;
+  bool both_sides = false;
 
   [[nodiscard]] InspectionInput input() const {
     InspectionInput in;
     for (std::size_t k = 0; k < 2; ++k) in.side[k] = {facets[k], {}, stiffness[k], outward[k]};
     in.side[0].nodes = held;
+    in.both_sides = both_sides;
     in.stiffness_scale = stiffness_scale;
     in.gap = gap;
     in.x = x;

@@ -3,6 +3,7 @@
 
 #include <abut/contact/interface.hpp>
 #include <functional>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -313,6 +314,20 @@ TEST(TwoSurfaces, shared_nodes_are_refused) {
     (void)Interface::two_surfaces(Surface({facets[0]}), Surface({facets[1]}), {});
     FAIL();
   } catch (const std::invalid_argument& e) { EXPECT_STREQ(e.what(), "contact: 2 nodes lie on both surfaces: 1, 4"); }
+}
+
+// A thickness limits the depth at which a node is still held (pass.cpp): one that is no length is refused.
+TEST(TwoSurfaces, a_thickness_that_is_no_length_is_refused) {
+  Host host;
+  const auto low = grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat);
+  const auto high = grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat);
+  Interface i = Interface::two_surfaces(Surface(low), Surface(high), {});
+  for (const double bad : {-0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const std::vector<double> thickness{bad};
+    EXPECT_THROW(i.set_surface(0, {.thickness = thickness}), std::invalid_argument) << bad;
+  }
+  const std::vector<double> none{0.0};
+  EXPECT_NO_THROW(i.set_surface(0, {.thickness = none}));
 }
 
 // A history blob taken in the middle of a run continues it bit for bit; damaged ones are refused.

@@ -21,6 +21,19 @@ Pair plates(int n = 6, int m = 5, double distance = 0.01) {
   for (std::size_t k = 0; k < 2; ++k) p.stiffness[k].assign(p.facets[k].size(), 1e6);
   return p;
 }
+/// 36 nodes at height z over facets that repel on both sides (TYPE7).
+Pair both_sided(double z) {
+  Pair p;
+  p.facets[1] = p.plate(6, 6, 0.0, 1.0, 0.0, true);
+  for (int j = 0; j < 6; ++j) {
+    for (int i = 0; i < 6; ++i) {
+      p.held.push_back(static_cast<Index>(p.x.size()));
+      p.x.push_back({0.1 + 0.16 * i, 0.1 + 0.16 * j, z});
+    }
+  }
+  p.both_sides = true;
+  return p;
+}
 /// A floor of two halves that meet at x = 0.5 under `slope`: a valley for slope > 0, a ridge for slope < 0.
 Pair folded(double slope) {
   Pair p;
@@ -287,6 +300,99 @@ TEST(Inspection, T25_initial_penetrations_are_those_of_the_contact) {
   Index counted = 0;
   for (const Bar& bar : f->histogram) counted += bar.count;
   EXPECT_EQ(counted, 36);
+}
+
+/// The scene of T25 with facets that repel on both sides: the same third, whatever the normals and whichever side the nodes are on.
+TEST(Inspection, both_sided_facets_find_initial_penetrations_from_either_side) {
+  for (const double z : {0.01, -0.01}) {
+    Pair p = both_sided(z);
+    p.gap = 0.015;
+    const auto found = inspect(p.input());
+    const Finding* f = test::find(found, "contact.initial_penetration", 0);
+    ASSERT_NE(f, nullptr) << z;
+    EXPECT_NEAR(f->measure, 1.0 / 3.0, 1e-12);
+    EXPECT_EQ(f->nodes.size(), 36u);
+    EXPECT_FALSE(test::has(found, "contact.overlap") || test::has(found, "contact.normals_away"));
+    p.gap = 0.009;
+    EXPECT_FALSE(test::has(inspect(p.input()), "contact.initial_penetration"));
+    EXPECT_NEAR(test::find(inspect(p.input()), "contact.clearance", 0)->measure, 0.001, 1e-12);
+  }
+}
+
+/// Gap of a pair: node 0.004 + facet 0.011 = 0.015 over a distance of 0.01; only one node's own share of 0.002 keeps it out.
+TEST(Inspection, both_sided_gaps_are_those_of_the_pairs) {
+  Pair p = both_sided(0.01);
+  BothSidesOptions pairs;
+  pairs.gap = 0.001;
+  pairs.node_gap.assign(36, 0.004);
+  pairs.node_gap[7] = -0.002;
+  pairs.facet_gap.assign(p.facets[1].size(), 0.011);
+  InspectionInput in = p.input();
+  in.gap = 0.015;
+  in.pairs = &pairs;
+  const auto found = inspect(in);
+  const Finding* f = test::find(found, "contact.initial_penetration", 0);
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(f->nodes.size(), 35u);
+  EXPECT_FALSE(std::binary_search(f->nodes.begin(), f->nodes.end(), p.held[7]));
+}
+
+/// A surface against its own nodes: what a node is a corner of does not count, the neighbours are out of the gap.
+TEST(Inspection, a_both_sided_surface_against_itself_is_quiet) {
+  Pair p;
+  p.facets[1] = p.plate(6, 6, 0.0, 1.0, 0.0, true);
+  for (Index n = 0; n < 49; ++n) p.held.push_back(n);
+  p.both_sides = true;
+  p.gap = 0.05;
+  EXPECT_TRUE(inspect(p.input()).empty());
+  p.gap = 0.2;  // more than a segment of 1/6: nodes are in the gap of segments beside them
+  EXPECT_TRUE(test::has(inspect(p.input()), "contact.initial_penetration", 0));
+  EXPECT_TRUE(test::has(inspect(p.input()), "contact.gap_large"));
+}
+
+/// Sets of nodes: sizes and stiffnesses come from the host, for TYPE5 and TYPE7 alike.
+TEST(Inspection, held_nodes_have_sizes_and_stiffnesses) {
+  for (const bool both : {false, true}) {
+    Pair p = both_sided(0.01);
+    p.both_sides = both;
+    const std::vector<double> size(36, 0.04), stiffness(36, 2e7);
+    p.stiffness[1].assign(p.facets[1].size(), 1e6);
+    p.mass.assign(p.x.size(), 1e-3);
+    p.element_step = 1e-4;
+    InspectionInput in = p.input();
+    in.side[0].size = size;
+    in.side[0].stiffness = stiffness;
+    const auto found = inspect(in);
+    const Finding* ratio = test::find(found, "contact.size_ratio", 1);
+    ASSERT_NE(ratio, nullptr);
+    EXPECT_NEAR(ratio->measure, 1.0 / 6.0 / 0.04, 1e-9);
+    const Finding* stiff = test::find(found, "contact.stiffness_ratio", 0);
+    ASSERT_NE(stiff, nullptr);
+    EXPECT_NEAR(stiff->measure, 20.0, 1e-9);
+    // One pass: K = s K1 K2/(K1 + K2); both sides, out of the gap: K0 = s K_m/2.
+    const double k = both ? 0.5 * 0.2 * 1e6 : 0.2 * 1e6 * 2e7 / 2.1e7;
+    const Finding* step = test::find(found, "contact.interface_step", -1);
+    ASSERT_EQ(step != nullptr, std::sqrt(2e-3 / k) < 1e-4);
+    in.mass = p.mass;
+    in.element_step = 1.0;
+    const auto late = inspect(in);
+    EXPECT_NEAR(test::find(late, "contact.interface_step", -1)->measure, std::sqrt(2e-3 / k), 1e-9 * std::sqrt(2e-3 / k));
+  }
+}
+
+/// A fine patch inside one coarse segment: no coarse node sees the patch, and the ratios are told all the same.
+TEST(Inspection, a_coarse_side_whose_nodes_lie_outside_is_compared_too) {
+  Pair p;
+  p.facets[0] = p.plate(1, 1, -3.0, 4.0, 0.0, true);
+  p.facets[1] = p.plate(7, 7, 0.0, 1.0, 0.01, false);
+  p.stiffness[0].assign(1, 4e7);
+  p.stiffness[1].assign(49, 1e6);
+  const auto found = inspect(p.input());
+  ASSERT_TRUE(test::has(found, "contact.blind_nodes", 0));
+  ASSERT_TRUE(test::has(found, "contact.size_ratio", 0));
+  EXPECT_NEAR(test::find(found, "contact.size_ratio", 0)->measure, 49.0, 1e-9);
+  ASSERT_TRUE(test::has(found, "contact.stiffness_ratio", 0));
+  EXPECT_NEAR(test::find(found, "contact.stiffness_ratio", 0)->measure, 40.0, 1e-9);
 }
 
 /// T29: 10 m/s, steps of 1 ms, gap 10 mm: one step through the gap.

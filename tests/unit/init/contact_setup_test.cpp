@@ -144,11 +144,12 @@ TEST(Type7Setup, initial_penetrations_are_found) {
   const ContactFinding blank = found(0.0, 0);
   EXPECT_EQ(blank.finding.severity, contact::Severity::warning);
   EXPECT_EQ(blank.nodes, (std::vector<Id>{7, 8, 9, 10}));
-  EXPECT_NEAR(blank.finding.measure, 0.01, 1e-9);  // nodes are moved a hair beyond the gap
+  EXPECT_NEAR(blank.finding.measure, 1.0 / 3.0, 1e-12);
   EXPECT_EQ(blank.finding.what,
-            "4 nodes start within the gap of 0.03 that follows from the thickness (Gapmin is not given), up to 0.01 deep");
-  EXPECT_EQ(found(0.021, 0).finding.severity, contact::Severity::note);
-  EXPECT_EQ(found(0.021, 0).finding.what, "4 nodes start within the gap, up to 0.001 deep");
+            "4 nodes of this side start within the gap, the deepest 33 % of it; the gap of 0.03 follows from the thickness (Gapmin is not given)");
+  const ContactFinding given = found(0.021, 0);
+  EXPECT_EQ(given.finding.severity, contact::Severity::note);
+  EXPECT_NEAR(given.finding.measure, 0.001 / 0.021, 1e-12);
   EXPECT_TRUE(found(0.0, 5).nodes.empty());
   EXPECT_TRUE(found(0.019, 0).nodes.empty());
 }

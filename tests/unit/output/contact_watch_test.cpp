@@ -113,5 +113,36 @@ TEST_F(Watched, MotionsThatLeaveTheNormalsFacingAreNotReported) {
   EXPECT_TRUE(run([](Vec3 x, double, double tau) { return turned(x, std::numbers::pi * tau); }).empty());
 }
 
+/// Nodes that cross or get lost in different cycles are one finding: distinct nodes, from the first time on.
+TEST_F(Watched, NodesLostAndCrossedAreCountedOverTheRun) {
+  ContactWatch watch(log_);
+  cycle::Snapshot now;
+  now.model = &scene_.model;
+  now.state = &state_;
+  now.balance = &balance_;
+  now.interfaces = interfaces_;
+  watch.begin(now);
+  const std::vector<std::vector<Index>> crossed{{}, {3}, {1, 3}, {}, {2}, {1}};
+  for (std::size_t n = 0; n < crossed.size(); ++n) {
+    interfaces_[0].crossed = crossed[n];
+    if (n == 4) interfaces_[0].lost = crossed[2];
+    now.interfaces = interfaces_;
+    state_.times.t = 0.1 * static_cast<double>(n);
+    state_.times.cycle = static_cast<std::int64_t>(n);
+    watch.cycle(now);
+  }
+  ASSERT_EQ(log_->size(), 2u);
+  const RunFinding& all = (*log_)[0];
+  EXPECT_EQ(all.diagnostic.code, "contact.crossed");
+  EXPECT_EQ(all.cycle, 1);
+  EXPECT_EQ(all.measure, 3.0);
+  std::vector<Id> expected;
+  for (const Index node : {1, 2, 3}) expected.push_back(scene_.model.node_id[static_cast<std::size_t>(node)]);
+  EXPECT_EQ(all.nodes, expected);
+  EXPECT_EQ(all.diagnostic.message.find("from time 0.1 (cycle 1) on: 3 nodes"), 0u) << all.diagnostic.message;
+  EXPECT_EQ((*log_)[1].diagnostic.code, "contact.lost_over_border");
+  EXPECT_EQ((*log_)[1].measure, 2.0);
+}
+
 }  // namespace
 }  // namespace abut::output
