@@ -17,8 +17,8 @@ BLUE, RED, GREY, DARK = "#2b6cb0", "#c05621", "#8a8f98", "#1a202c"
 
 
 class Picture:
-    def __init__(self):
-        self.parts = []
+    def __init__(self, width=WIDTH, height=HEIGHT):
+        self.width, self.height, self.parts = width, height, []
 
     def add(self, part):
         self.parts.append("  " + part)
@@ -54,8 +54,9 @@ class Picture:
         return self.add(f'<text x="{x:g}" y="{y:g}" font-family="sans-serif" font-size="11" fill="{color}">{text}</text>')
 
     def svg(self, code):
-        head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" role="img">'
-        ground = f'  <rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>'
+        width, height = self.width, self.height
+        head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" role="img">'
+        ground = f'  <rect width="{width}" height="{height}" fill="white"/>'
         return "\n".join([head, f"  <title>{code}</title>", ground, *self.parts, "</svg>\n"])
 
 

@@ -4,7 +4,7 @@
 //   for (const abut::Diagnostic& d : model.findings()) std::puts(to_string(d).c_str());
 //
 // Nodes, elements, parts, ... are sorted by id. Units are the work units of the deck. Spans live as long as some copy of
-// the model.
+// the model. A model may be used by several threads at a time: nothing changes it.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ namespace abut {
 
 /// Size of the work units in SI (kg, m, s) and their names as the deck writes them.
 struct Units {
-  double mass = 1.0, length = 1.0, time = 1.0;
+  double mass = 1.0, length = 1.0, time = 1.0;  ///< kg, m, s per unit
   std::string mass_name = "kg", length_name = "m", time_name = "s";
 };
 
@@ -47,7 +47,7 @@ struct ElementTable {
 struct PartInfo {
   Id id = 0;
   std::string title;
-  Id property_id = 0, material_id = 0;
+  Id property_id = 0, material_id = 0;  ///< ids of the deck
 };
 
 struct SurfaceInfo {
@@ -59,10 +59,10 @@ struct SurfaceInfo {
 struct InterfaceInfo {
   Id id = 0;
   std::string title;
-  std::string type;                                  ///< "TYPE3", "TYPE5", "TYPE7"
-  std::array<Index, 2> surface{no_index, no_index};  ///< first and second, indices into Model::surfaces(); no_index: a set of nodes
-  std::vector<Index> nodes;                          ///< of TYPE5 and TYPE7: the nodes that are held
-  double stiffness_scale = 0.0, friction = 0.0, gap = 0.0;
+  std::string type;                                         ///< "TYPE3", "TYPE5", "TYPE7"
+  std::array<Index, 2> surface{no_index, no_index};         ///< first and second, indices into Model::surfaces(); no_index: a set of nodes
+  std::vector<Index> nodes;                                 ///< of TYPE5 and TYPE7: the nodes that are held
+  double stiffness_scale = 0.0, friction = 0.0, gap = 0.0;  ///< Stfac and Fric without a unit, Gap a length
 };
 
 /// One finding of the contact inspection in the deck's ids (docs/findings/index.md).
@@ -81,7 +81,7 @@ enum class Rules { standard, reference };
 /// A gradual start of an interface (contact::Options::start_duration): initial penetrations are pushed out over this time.
 struct GradualStart {
   Id interface_id = 0;
-  double duration = 0.0;  ///< time
+  double duration = 0.0;  ///< time, >= 0
 };
 
 /// Choices of the mechanics that a deck does not make.
@@ -94,8 +94,8 @@ struct Choices {
 /// What can be said of a model before it runs.
 struct Inspection {
   std::vector<ContactFinding> contact;  ///< worst first for each interface
-  std::vector<double> part_mass;        ///< #parts
-  double first_step = 0.0;              ///< 0: not asked for, or interfaces have errors and cannot be built
+  std::vector<double> part_mass;        ///< #parts, order of Model::parts()
+  double first_step = 0.0;              ///< time; 0: not asked for, or interfaces have errors and cannot be built
   StepController controller;            ///< of the first step
 };
 
@@ -115,15 +115,17 @@ struct DeckText {
 class Model {
  public:
   /// Reads NAME_0000.rad and the Engine decks beside it.
-  /// @throws InputError with every finding when there is an error
+  /// @throws InputError with every finding when there is an error: a file that cannot be read is one; RunError when write_deck cannot be
+  ///         written, or the deck's form does not let it
   [[nodiscard]] static Model read(const std::filesystem::path& starter, const ReadOptions& options = {});
-  /// The same from text in memory: the same validation, the same messages. write_deck is not possible.
+  /// The same from text in memory: the same validation, the same messages.
+  /// @throws InputError as read(); RunError when write_deck is asked for
   [[nodiscard]] static Model from_text(const DeckText& text, const ReadOptions& options = {});
 
-  [[nodiscard]] const std::string& name() const;
-  [[nodiscard]] const std::string& title() const;
-  [[nodiscard]] const Units& units() const;
-  [[nodiscard]] double end_time() const;
+  [[nodiscard]] const std::string& name() const;               ///< NAME of NAME_0000.rad
+  [[nodiscard]] const std::string& title() const;              ///< of the deck
+  [[nodiscard]] const Units& units() const;                    ///< of everything that a model or its run gives
+  [[nodiscard]] double end_time() const;                       ///< time at which the Engine deck ends the run
   [[nodiscard]] int run_number() const;                        ///< n of /RUN/name/n that this model's controls are of
   [[nodiscard]] int last_run_number() const;                   ///< of the last Engine deck that there is
   [[nodiscard]] const std::filesystem::path& path() const;     ///< of the Starter deck; empty: from text
@@ -132,17 +134,17 @@ class Model {
   /// Hash over the text of the Starter deck, its includes and the options that change the model: a restart checks it.
   [[nodiscard]] std::uint64_t fingerprint() const;
 
-  [[nodiscard]] std::span<const Id> node_ids() const;       ///< #N, ascending
-  [[nodiscard]] std::span<const Vec3> coordinates() const;  ///< #N by 3
-  [[nodiscard]] ElementTable elements(ElementKind kind) const;
-  [[nodiscard]] std::size_t element_count() const;  ///< of all kinds
-  [[nodiscard]] std::span<const PartInfo> parts() const;
-  [[nodiscard]] std::span<const SurfaceInfo> surfaces() const;
-  [[nodiscard]] std::span<const InterfaceInfo> interfaces() const;
+  [[nodiscard]] std::span<const Id> node_ids() const;               ///< #N, ascending
+  [[nodiscard]] std::span<const Vec3> coordinates() const;          ///< #N by 3 lengths
+  [[nodiscard]] ElementTable elements(ElementKind kind) const;      ///< an empty table when there are none of this kind
+  [[nodiscard]] std::size_t element_count() const;                  ///< of all kinds
+  [[nodiscard]] std::span<const PartInfo> parts() const;            ///< by id
+  [[nodiscard]] std::span<const SurfaceInfo> surfaces() const;      ///< by id
+  [[nodiscard]] std::span<const InterfaceInfo> interfaces() const;  ///< by id
 
   /// Looks at the contacts with the masses, velocities and step of the first cycle.
   /// @param with_step  the first step too: the interfaces are built for it
-  /// @throws RunError when a gradual start is of an interface that is not there or cannot have one
+  /// @throws RunError when a gradual start is of an interface that is not there or cannot have one, or has a negative duration
   [[nodiscard]] Inspection inspect(const Choices& choices = {}, bool with_step = false) const;
 
   struct Impl;

@@ -72,7 +72,7 @@ struct RunFinding {
   Id interface_id = 0;
   double time = 0.0;
   std::int64_t cycle = 0;
-  double measure = 0.0;
+  double measure = 0.0;                     ///< how bad it is; docs/findings/index.md says of what
   std::vector<Id> nodes;                    ///< all of them; the text names twenty
   std::vector<std::array<Id, 4>> segments;  ///< node ids
 };
@@ -83,7 +83,8 @@ class Run {
   using Callback = std::function<bool(Run&)>;
 
   /// Inspects the contacts, makes the first state, opens the files.
-  /// @throws InputError when the inspection finds errors (unless they are allowed), RunError when a file cannot be written
+  /// @throws InputError when the inspection finds errors (unless they are allowed); RunError when a file cannot be written, or a
+  ///         recording or gradual start is of an interface that is not there, asked for twice, or without a run folder
   explicit Run(const Model& model, const RunSettings& settings = {});
   /// Goes on from the newest whole checkpoint of a run folder, with its files (docs/guide/restart.md): the same bits as if it had never
   /// stopped. When the run is finished, the next Engine deck takes over.
@@ -106,10 +107,12 @@ class Run {
   /// @throws RunError when the run fails (not finite, an error limit, a full disk); its files are complete then too
   bool advance();
   /// Cycles until time() > `time`, the end, an interrupt, or a callback that says false.
+  /// @param time  of the model; a time that has passed does nothing
   /// @return false when the run is over
+  /// @throws RunError as advance(); what a callback throws comes through, the run stays where it is
   bool advance_to(double time, const Callback& after_each = {});
-  bool advance_to_end(const Callback& after_each = {});
-  /// Ends the run where it is: summary, manifest, files closed. Nothing when it is over.
+  bool advance_to_end(const Callback& after_each = {});  ///< as advance_to()
+  /// Ends the run where it is: summary, manifest, files closed. Nothing when it is over. @throws RunError when a file cannot be written
   const Outcome& finish(Outcome::Kind kind = Outcome::Kind::stopped, std::string_view message = "stopped by the caller");
   [[nodiscard]] bool is_over() const;
   [[nodiscard]] const Outcome& outcome() const;  ///< valid when is_over()
@@ -123,35 +126,38 @@ class Run {
   [[nodiscard]] const StepController& controller() const;  ///< who gave step()
   [[nodiscard]] std::uint64_t hash() const;                ///< over every bit of the state that influences the future
 
-  // ---- nodes: #N (by 3), order of Model::node_ids() ----
+  // ---- nodes: #N (by 3), order of Model::node_ids(); views of the present state that live as long as the run ----
+  /// Lengths at time(). Positions cannot be changed: stresses and the anchors of friction are sums over the way that nodes have gone,
+  /// and a jump has no work that the balance could book. A position is reached by a velocity.
   [[nodiscard]] std::span<const Vec3> positions() const;
-  [[nodiscard]] std::span<const Vec3> displacements() const;
-  [[nodiscard]] std::span<const Vec3> velocities() const;
-  [[nodiscard]] std::span<const Vec3> angular_velocities() const;
-  [[nodiscard]] std::span<const Vec3> accelerations() const;
-  [[nodiscard]] std::span<const Vec3> contact_forces() const;  ///< sum of all interfaces
-  [[nodiscard]] std::span<const double> masses() const;
+  [[nodiscard]] std::span<const Vec3> displacements() const;       ///< positions() less Model::coordinates()
+  [[nodiscard]] std::span<const Vec3> velocities() const;          ///< at time() - step()/2, or as edited
+  [[nodiscard]] std::span<const Vec3> angular_velocities() const;  ///< radians/time; empty in models without rotations
+  [[nodiscard]] std::span<const Vec3> accelerations() const;       ///< at force_time()
+  [[nodiscard]] std::span<const Vec3> contact_forces() const;      ///< at force_time(), sum of all interfaces
+  [[nodiscard]] std::span<const double> masses() const;            ///< added ones included
   /// The velocities, to be changed before the next cycle. The energy that a change brings is booked as external work, so the
   /// balance stays closed. Nodes whose motion is imposed, and secondary nodes of rigid bodies, take no notice.
   [[nodiscard]] std::span<Vec3> edit_velocities();
   [[nodiscard]] std::span<Vec3> edit_angular_velocities();
 
   // ---- results ----
-  [[nodiscard]] const Balance& balance() const;
+  [[nodiscard]] const Balance& balance() const;                       ///< at force_time()
   [[nodiscard]] std::span<const InterfaceResult> interfaces() const;  ///< order of Model::interfaces()
   /// A field of the animation (docs/guide/outputs.md) at every node: #N by components, row-major.
   /// @throws std::invalid_argument for an unknown name; node_field_names() has all
   [[nodiscard]] std::vector<double> node_field(std::string_view name) const;
   /// The same for all elements of one kind, in the order of Model::elements(kind); NaN for deleted elements.
+  /// @throws std::invalid_argument for an unknown name; element_field_names() has all
   [[nodiscard]] std::vector<double> element_field(ElementKind kind, std::string_view name) const;
   [[nodiscard]] static std::vector<std::string> node_field_names();
   [[nodiscard]] static std::vector<std::string> element_field_names();
-  [[nodiscard]] const History& history() const;
+  [[nodiscard]] const History& history() const;                            ///< empty without RunSettings::record_history
   [[nodiscard]] std::span<const Diagnostic> initial_findings() const;      ///< of reading and of the inspection, as text
   [[nodiscard]] std::span<const ContactFinding> contact_findings() const;  ///< of the inspection before the run
   [[nodiscard]] std::span<const RunFinding> findings() const;              ///< of the run so far
-  [[nodiscard]] std::vector<PhaseTime> timings() const;
-  [[nodiscard]] const std::filesystem::path& output() const;  ///< run folder; empty: none
+  [[nodiscard]] std::vector<PhaseTime> timings() const;                    ///< wall-clock time so far
+  [[nodiscard]] const std::filesystem::path& output() const;               ///< run folder; empty: none
 
  private:
   struct Impl;

@@ -1,11 +1,12 @@
 """The contact library on its own: closed forms, arrays at the border, history."""
 import gc
+import re
 
 import numpy as np
 import pytest
 
 from abut import contact
-from support import resident_bytes
+from support import ROOT, resident_bytes
 
 GAP, CLEARANCE, FACET = 0.2, 0.1, 10.0
 
@@ -263,6 +264,115 @@ def test_inspection_finds_normals_that_look_away():
     assert len(flip_first) == 0 and flip_second.tolist() == [0] and ambiguous == [False, False]
     with pytest.raises(ValueError, match="second names node 9, but x has 8 rows"):
         contact.inspect(lower, [[4, 5, 9]], x)
+
+
+def answers(findings):
+    return [(f.code, f.severity, f.side, f.facets.tolist(), f.nodes.tolist(), f.measure, f.what, f.advice, f.histogram.tolist()) for f in findings]
+
+
+def test_an_interface_inspects_itself():
+    """Interface.inspect() says what the free function says of the same surfaces, in all three kinds."""
+    x, lower, upper = squares(clearance=0.15)
+    x[4:, :2] *= 7.0
+    away = contact.Surface([[4, 5, 6, 7]])
+    v, mass = np.zeros_like(x), np.full(8, 1e-3)
+    v[4:, 2] = -100.0
+    state = dict(v=v, mass=mass, element_step=1e-3)
+    for second in (upper, away):
+        made = contact.Interface.two_surfaces(lower, second, contact.Options(gap=GAP, stiffness_scale=0.3))
+        bare = dict(gap=GAP, stiffness_scale=0.3)
+        assert answers(made.inspect(x)) == answers(contact.inspect(lower, second, x, **bare))
+        made.set_surface(0, stiffness=[FACET])
+        made.set_surface(1, stiffness=[500 * FACET])
+        stiff = dict(first_stiffness=[FACET], second_stiffness=[500 * FACET])
+        own = made.inspect(x, **state, second_outward=[1])
+        assert answers(own) == answers(contact.inspect(lower, second, x, **bare, **state, **stiff, second_outward=[1]))
+        assert {"contact.size_ratio", "contact.stiffness_ratio"} <= {f.code for f in own} or second is away
+        wide = contact.InspectionLimits(size_ratio=1e3, stiffness_ratio=1e3)
+        assert answers(made.inspect(x, limits=wide)) == answers(contact.inspect(lower, second, x, **bare, **stiff, limits=wide))
+    nodes = np.arange(4, 8)
+    one = contact.Interface.nodes_to_surface(nodes, lower, contact.Options(gap=GAP))
+    both = contact.Interface.both_sides(nodes, lower, contact.BothSidesOptions(gap=GAP))
+    for made in (one, both):
+        made.set_surface(1, stiffness=[0.0])
+        found = made.inspect(x)
+        assert answers(found) == answers(contact.inspect(nodes, lower, x, gap=GAP, second_stiffness=[0.0], both_sides=made is both))
+        assert "contact.no_stiffness" in {f.code for f in found}
+    for arguments, words in (((x[:7],), "x must have at least 8 rows"), ((x, x[:5]), "v has")):
+        with pytest.raises(ValueError, match=words):
+            one.inspect(arguments[0], v=arguments[1] if len(arguments) > 1 else None)
+    with pytest.raises(ValueError, match="2 values of outward for 1 facets"):
+        made.inspect(x, second_outward=[1, 1])
+
+
+def members_of(struct, header):
+    """Names of the data members of a C++ structure of plain members, in their order."""
+    text = re.sub(r"//[^\n]*", "", (ROOT / "include" / "abut" / "contact" / header).read_text(encoding="utf-8"))
+    body = text[text.index(f"struct {struct} {{"):]
+    body = body[body.index("{") + 1:body.index("\n};")]
+    body = re.sub(r"<[^<>]*>|\benum class \w+ \{[^}]*\}", "", body.partition("[[nodiscard]]")[0])  # functions come last
+    names = []
+    for statement in body.split(";"):
+        if statement.strip():
+            names += [part.split("=")[0].split()[-1] for part in re.sub(r"\{[^}]*\}", "", statement).split(",") if part.split()]
+    return names
+
+
+CHANGED = {"stiffness_scale": 0.7, "friction": 0.25, "tangential_ratio": 0.3, "gap": 0.6, "birth": 0.5, "death": 2.0, "start_duration": 0.1,
+           "shear_limit": 7.0, "damping": 0.35, "initial": "offset", "depth_limit": 0.9, "node_gap": [0.1, 0.2], "facet_gap": [0.3],
+           "gap_max": 5.0, "node_size": [1.0, 2.0], "facet_size": [3.0], "stiffness": "series", "stiffness_min": 1.0, "stiffness_max": 9.0,
+           "friction_form": "incremental", "friction_viscosity": 0.4, "largest_penetration": 0.8, "step_minimum": 1e-6, "step_scale": 0.5,
+           "reference_step": True, "switch_correction": False, "all_pieces": True, "law": "constant", "edges": "plain",
+           "one_pass_half_stiffness": True, "triangle_third_node_twice": True, "reference_friction": True, "area_ratio_projection": True,
+           "unlimited_depth": True, "limits_step": False, "model": "renard", "c": [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "share": 0.5,
+           "frequency": 3.0, "aspect_ratio": 2.0, "warp_degrees": 3.0, "size_ratio": 5.0, "stiffness_ratio": 6.0, "concave_degrees": 7.0,
+           "gap_of_size": 0.8, "steps_through_gap": 9.0}
+STRUCTURES = {"Options": "options.hpp", "Rules": "options.hpp", "BothSidesOptions": "both_sides.hpp", "FrictionLaw": "friction_law.hpp",
+              "FrictionFilter": "friction_law.hpp", "InspectionLimits": "inspect.hpp"}
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_every_option_of_the_library_can_be_given_and_read(name):
+    """The members of the C++ structure are the arguments of the Python class and its properties; what is given is read back."""
+    members, cls = members_of(name, STRUCTURES[name]), getattr(contact, name)
+    written = (ROOT / "src" / "contact" / "record" / "fields.hpp").read_text(encoding="utf-8")
+    listed = re.search(r"LikeA<" + name + r"> T>\s+void fields.*?auto& \[([^\]]*)\]", written, re.DOTALL)
+    if listed:  # the list that the compiler holds against the structure: nothing was overlooked above
+        assert len(members) == len(listed.group(1).split(","))
+    arguments = re.search(r"__init__\((.*)\) -> None", cls.__init__.__doc__).group(1)
+    said = re.findall(r"(\w+): ", arguments)
+    assert sorted(said[1:]) == sorted(members)
+    assert sorted(n for n in vars(cls) if isinstance(vars(cls)[n], property)) == sorted(members)
+    friction = {"friction_law": contact.FrictionLaw("darmstadt", [1.0, 2.0]), "filter": contact.FrictionFilter(0.5),
+                "rules": contact.Rules(law="constant")}
+    values = {n: CHANGED[n] for n in members if n not in friction}
+    made, assigned = cls(**values), cls(**({"gap": 1.0} if name == "BothSidesOptions" else {}))
+    for n, value in values.items():
+        setattr(assigned, n, value)
+        for read in (getattr(made, n), getattr(assigned, n)):
+            assert np.array_equal(read, value) if isinstance(value, list) else read == value, n
+    for n in set(members) & set(friction):
+        setattr(assigned, n, friction[n])
+        for given in (cls(**values, **{n: friction[n]}), assigned):
+            inside = {"friction_law": "model", "filter": "share", "rules": "law"}[n]
+            assert getattr(getattr(given, n), inside) == getattr(friction[n], inside)
+    untouched, first = cls(**({"gap": CHANGED["gap"]} if name == "BothSidesOptions" else {})), cls(**values)
+    assert all(not np.array_equal(getattr(untouched, n), getattr(first, n)) for n in values if (name, n) != ("BothSidesOptions", "gap"))
+
+
+def test_sizes_of_nodes_and_facets_limit_the_gap():
+    """Gap of a pair: max(gap, min(node_gap + facet_gap, gap_max, node_size + facet_size)) (Igap 3); F = K P without damping."""
+    x, lower, _ = squares(clearance=0.3)
+    forces = []
+    for limit in (1e30, 0.2):
+        options = contact.BothSidesOptions(gap=0.1, damping=0.0, friction_viscosity=0.0, switch_correction=False, node_gap=[0.25] * 4,
+                                           facet_gap=[0.25], node_size=[limit] * 4, facet_size=[limit])
+        made = contact.Interface.both_sides(np.arange(4, 8), lower, options)
+        made.set_surface(1, stiffness=[FACET])
+        forces.append(evaluated(made, x)[1][4:, 2])
+    assert (forces[0] > forces[1]).all() and (forces[1] > 0.0).all()
+    with pytest.raises(ValueError, match="node_size and facet_size must be given with node_gap"):
+        contact.BothSidesOptions(gap=0.1, node_size=[1.0], facet_size=[1.0])
 
 
 def test_a_log_is_replayed_with_the_same_bits(tmp_path):

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import abut
-from support import STEEL, builder, cube, one_cube, resident_bytes, two_blocks
+from support import DECKS, STEEL, builder, cube, one_cube, resident_bytes, two_blocks
 
 
 def run_of(**arguments):
@@ -161,6 +161,30 @@ def test_interfaces_and_fields():
     assert run.element_field("shell4", "stress").shape == (0,)
     with pytest.raises(ValueError, match="'heat' is not a field of nodes"):
         run.node_field("heat")
+
+
+@pytest.mark.parametrize("name", ["lost_over_border", "crossed"])
+def test_findings_of_the_run_name_their_nodes(name):
+    """What the watch found names all nodes, and the interface's result of that cycle the same ones."""
+    path = DECKS / "findings" / name / (name + "_0000.rad")
+    run = abut.Run(abut.Model.read(path), threads=1, allow_findings=True)
+    seen = {}
+
+    def watch(r):
+        (result,) = r.interfaces
+        for kind, count, nodes in (("crossed", result.crossed, result.crossed_nodes), ("lost", result.lost, result.lost_nodes)):
+            assert nodes.shape == (count,) and nodes.dtype == np.int32
+            if count and kind not in seen:
+                seen[kind] = (r.cycle, nodes)
+        assert (result.deepest_node >= 0) == (result.largest_penetration > 0.0)
+
+    run.advance_to_end(watch)
+    kind = {"lost_over_border": "lost", "crossed": "crossed"}[name]
+    (found,) = [f for f in run.findings if f.diagnostic.code == "contact." + name]
+    assert found.measure == len(found.nodes) > 0 and found.segments.shape == (0, 4)
+    np.testing.assert_array_equal(np.sort(found.nodes), np.sort(run.model.node_ids[seen[kind][1]]))
+    assert seen[kind][0] - found.cycle in (0, 1)
+    assert run.interfaces[0].lost == 0 and run.interfaces[0].lost_nodes.shape == (0,)
 
 
 def test_a_checkpoint_goes_on_with_the_same_bits(tmp_path):

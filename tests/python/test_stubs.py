@@ -96,6 +96,40 @@ def test_class(file, node):
     assert ("__init__" in said) == ("__init__" in vars(real) and "__init__" in (real.__init__.__doc__ or "")), node.name
 
 
+@pytest.mark.parametrize("file, node", CLASSES, ids=[f"{file}:{node.name}" for file, node in CLASSES])
+def test_every_attribute_says_what_it_is(file, node):
+    """No public attribute, method or constructor without a docstring; of a function more than the signature that pybind11 writes."""
+    real = getattr(MODULES[file], node.name)
+    silent = []
+    for name in vars(real):
+        member = getattr(real, name)
+        if name.startswith("_") and not (name == "__init__" and "__init__(" in (member.__doc__ or "")):
+            continue
+        doc = (member.__doc__ or "").strip()
+        if doc.startswith(name + "("):
+            doc = doc.partition("\n")[2].strip()
+        if not doc:
+            silent.append(name)
+    assert not silent, f"{node.name}: {silent}"
+
+
+ARRAYS = re.compile(r"\([0-9A-Za-z, -]+,[0-9A-Za-z, -]*\)")
+
+
+@pytest.mark.parametrize("file, node", CLASSES, ids=[f"{file}:{node.name}" for file, node in CLASSES])
+def test_every_array_says_its_shape(file, node):
+    """Properties and functions that give or take arrays name a shape, (N,) or (N, 3), or point to the function that does."""
+    real = getattr(MODULES[file], node.name)
+    for member in node.body:
+        if not isinstance(member, ast.FunctionDef) or is_setter(member):
+            continue
+        types = [ast.unparse(a.annotation) for a in member.args.args + member.args.kwonlyargs if a.annotation is not None]
+        types.append(ast.unparse(member.returns))
+        if any("NDArray" in t for t in types):
+            doc = getattr(real, member.name).__doc__
+            assert ARRAYS.search(doc) or "evaluate()" in doc, f"{node.name}.{member.name}: {doc}"
+
+
 @pytest.mark.parametrize("file", MODULES)
 def test_module(file):
     module, tree = MODULES[file], stub_tree(file)

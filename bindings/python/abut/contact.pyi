@@ -67,10 +67,45 @@ class BothSidesOptions:
                  friction_viscosity: float = 1.0,
                  initial: Literal["keep", "offset", "offset_with_margin", "drop_nodes", "drop_facets"] = "keep",
                  largest_penetration: float = 0.0, birth: float = 0.0, death: float = 1e30, node_gap: ArrayLike | None = None,
-                 facet_gap: ArrayLike | None = None, gap_max: float = 1e30) -> None: ...
+                 facet_gap: ArrayLike | None = None, gap_max: float = 1e30, node_size: ArrayLike | None = None,
+                 facet_size: ArrayLike | None = None, step_minimum: float = 0.0, step_scale: float = 0.9, reference_step: bool = False,
+                 switch_correction: bool = True, all_pieces: bool = False) -> None: ...
     gap: float
+    gap_max: float
+    stiffness: Literal["facet", "mean", "larger", "smaller", "series"]
+    stiffness_min: float
+    stiffness_max: float
     friction: float
+    friction_law: FrictionLaw
+    filter: FrictionFilter
+    friction_form: Literal["viscous", "incremental"]
     damping: float
+    friction_viscosity: float
+    initial: Literal["keep", "offset", "offset_with_margin", "drop_nodes", "drop_facets"]
+    largest_penetration: float
+    birth: float
+    death: float
+    step_minimum: float
+    step_scale: float
+    reference_step: bool
+    switch_correction: bool
+    all_pieces: bool
+    @property
+    def node_gap(self) -> NDArray[np.float64]: ...
+    @node_gap.setter
+    def node_gap(self, value: ArrayLike | None) -> None: ...
+    @property
+    def facet_gap(self) -> NDArray[np.float64]: ...
+    @facet_gap.setter
+    def facet_gap(self, value: ArrayLike | None) -> None: ...
+    @property
+    def node_size(self) -> NDArray[np.float64]: ...
+    @node_size.setter
+    def node_size(self, value: ArrayLike | None) -> None: ...
+    @property
+    def facet_size(self) -> NDArray[np.float64]: ...
+    @facet_size.setter
+    def facet_size(self, value: ArrayLike | None) -> None: ...
 
 class StepResult:
     @property
@@ -124,6 +159,9 @@ class Interface:
     def set_surface(self, side: int, *, stiffness: ArrayLike | None = None, thickness: ArrayLike | None = None,
                     active: ArrayLike | None = None, node_active: ArrayLike | None = None) -> None: ...
     def set_threads(self, threads: int) -> None: ...
+    def inspect(self, x: ArrayLike, *, v: ArrayLike | None = None, mass: ArrayLike | None = None, element_step: float = 0.0,
+                first_outward: ArrayLike | None = None, second_outward: ArrayLike | None = None,
+                limits: InspectionLimits = ...) -> list[Finding]: ...
     def search(self, x: ArrayLike, v: ArrayLike, *, mass: ArrayLike | None = None, time: float = 0.0, dt: float | None = None) -> None: ...
     def evaluate(self, x: ArrayLike, v: ArrayLike, force: NDArray[np.float64], stiffness: NDArray[np.float64], *,
                  mass: ArrayLike | None = None, time: float = 0.0, dt: float | None = None) -> StepResult: ...
@@ -200,6 +238,13 @@ class Finding:
 class InspectionLimits:
     def __init__(self, *, aspect_ratio: float = 5.0, warp_degrees: float = 15.0, size_ratio: float = 4.0, stiffness_ratio: float = 10.0,
                  concave_degrees: float = 10.0, gap_of_size: float = 0.5, steps_through_gap: float = 5.0) -> None: ...
+    aspect_ratio: float
+    warp_degrees: float
+    size_ratio: float
+    stiffness_ratio: float
+    concave_degrees: float
+    gap_of_size: float
+    steps_through_gap: float
 
 class Facing:
     @property

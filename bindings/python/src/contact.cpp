@@ -212,6 +212,22 @@ void set_threads(HeldInterface& i, int threads) {
   i.pool = std::move(pool);
 }
 
+std::vector<contact::Finding> inspect(const HeldInterface& i, const ArrayLike& x, const std::optional<ArrayLike>& v,
+                                      const std::optional<ArrayLike>& mass, double element_step,
+                                      const std::optional<ArrayLike>& first_outward, const std::optional<ArrayLike>& second_outward,
+                                      const contact::InspectionLimits& limits) {
+  const Points at = points(x, "x"), speed = v ? points(*v, "v", at.array.shape(0)) : Points{};
+  if (at.array.shape(0) < i.nodes_needed) throw py::value_error("x must have at least " + std::to_string(i.nodes_needed) + " rows");
+  const Reals masses = reals(mass, "mass", at.array.shape(0));
+  const auto sign = [](const std::optional<ArrayLike>& value, const char* name) {
+    std::vector<std::int8_t> signs;
+    for (const double o : reals(value, name).span) signs.push_back(o > 0.0 ? 1 : o < 0.0 ? -1 : 0);
+    return signs;
+  };
+  const auto first = sign(first_outward, "first_outward"), second = sign(second_outward, "second_outward");
+  return i.interface.inspect({.x = at.span, .v = speed.span, .mass = masses.span}, element_step, {first, second}, limits);
+}
+
 py::tuple nodal_forces(const HeldInterface& i, py::ssize_t count) {
   if (count < i.nodes_needed) throw py::value_error("node_count must be at least " + std::to_string(i.nodes_needed));
   py::array_t<double> normal({count, py::ssize_t{3}}), tangential({count, py::ssize_t{3}});
@@ -318,16 +334,33 @@ void bind_interface(py::module_& m) {
            "stiffness: (F,) own stiffness per facet, force/length: E t (shell) or B A^2/V (brick face). thickness: (F,) of shells.\n"
            "active: (F,) False for eroded facets. node_active: (S,) False lets a node go. For a side of nodes F is their number.")
       .def("set_threads", &set_threads, "threads"_a, "Loops over nodes run in this many threads; results do not depend on it.")
+      .def(
+          "inspect", &inspect, "x"_a, py::kw_only(), "v"_a = py::none(), "mass"_a = py::none(), "element_step"_a = 0.0,
+          "first_outward"_a = py::none(), "second_outward"_a = py::none(), "limits"_a = contact::InspectionLimits{},
+          "contact.inspect() of what this interface knows of itself: surfaces, stiffness, gap and stiffness scale. Best before the first\n"
+          "step; worst first. Eroded facets are looked at like others.\n\n"
+          "x, v: (N, 3), v None: at rest. mass: (N,), None: not known. element_step: time, stable step without the interface, 0: not "
+          "known.\n"
+          "*_outward: (F,) +1 normal out of the solid behind, -1 into it, 0 shell or not known. Raises ValueError for arrays that are too\n"
+          "short or of another shape.")
       .def("search", &search, "x"_a, "v"_a, py::kw_only(), "mass"_a = py::none(), "time"_a = 0.0, "dt"_a = py::none(),
-           "Finds who can touch. Once per step, with the arguments that evaluate() will get.")
+           "Finds who can touch. Once per step, with the arguments that evaluate() will get.\n\n"
+           "x: (N, 3) positions at t^n; v: (N, 3) velocities half a step before. Raises ValueError when they are too short for the\n"
+           "surfaces or not finite.")
       .def("evaluate", &evaluate, "x"_a, "v"_a, "force"_a, "stiffness"_a, py::kw_only(), "mass"_a = py::none(), "time"_a = 0.0,
            "dt"_a = py::none(),
            "Adds forces into force (N, 3) and nodal contact stiffness into stiffness (N,): float64, C order, writable.\n\n"
            "A host is stable with h <= sqrt(2 m/K) for the stiffness K of elements and contacts at every node.\n"
-           "mass: (N,), 0 for a node that cannot move; time: t^n; dt: the step that ended at t^n, None: the last one committed.")
-      .def("commit", &commit, "dt"_a, "Friction and energy history move on; dt is the step that the host takes now.")
+           "mass: (N,), 0 for a node that cannot move; time: t^n; dt: the step that ended at t^n, None: the last one committed.\n"
+           "Raises RuntimeError without a search() in this step.")
+      .def("commit", &commit, "dt"_a,
+           "Friction and energy history move on; dt > 0 is the step that the host takes now.\n\n"
+           "Raises ValueError for a dt that is not positive, RuntimeError without an evaluate() in this step.")
       .def("step", &step, "x"_a, "v"_a, "force"_a, "stiffness"_a, py::kw_only(), "dt"_a, "mass"_a = py::none(), "time"_a = 0.0,
-           "search, evaluate and commit in one call, for hosts that know their step dt beforehand.")
+           "search, evaluate and commit in one call, for hosts that know their step beforehand.\n\n"
+           "x, v: (N, 3) positions at t^n and velocities half a step before. force (N, 3) and stiffness (N,), float64 in C order and\n"
+           "writable, are added to. mass: (N,), 0 for a node that cannot move. dt: the step that the host takes now; time: t^n.\n"
+           "Raises ValueError for arrays of another shape or values that are not finite, and for a dt that is not positive.")
       .def("nodal_forces", &nodal_forces, "node_count"_a, "Normal and tangential contact force on the host's nodes: two (N, 3) arrays.")
       .def("nodal_contact", &nodal_contact, "node_count"_a,
            "What held nodes have to do with the other side, at the positions of the last search: three (N,) arrays.\n\n"
@@ -336,13 +369,13 @@ void bind_interface(py::module_& m) {
       .def("nodal_area", &nodal_area, "x"_a, "(N,) tributary area of the surfaces' nodes at positions x (N, 3).")
       .def_property_readonly(
           "nodes_in_contact", [](const HeldInterface& i) { return copy(i.interface.nodes_in_contact()); },
-          "held nodes that touch now: indices, each once")
+          "(K,) held nodes that touch now: indices, each once")
       .def_property_readonly(
           "nodes_crossed", [](const HeldInterface& i) { return copy(i.interface.nodes_crossed()); },
-          "nodes that StepResult.crossed of the last evaluate() counts: indices")
+          "(K,) nodes that StepResult.crossed of the last evaluate() counts: indices")
       .def_property_readonly(
           "nodes_lost", [](const HeldInterface& i) { return copy(i.interface.nodes_lost()); },
-          "nodes that StepResult.lost of the last evaluate() counts: indices")
+          "(K,) nodes that StepResult.lost of the last evaluate() counts: indices")
       .def("projections", &projections, "x"_a, py::kw_only(), "move_surface"_a = false,
            "Moves that take initial penetrations away, for the host to apply before it starts: nodes (K,) and moves (K, 3).")
       .def("history", &history, "Friction anchors, held pairs, energies and previous forces as bytes, for a checkpoint.")

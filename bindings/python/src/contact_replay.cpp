@@ -27,7 +27,7 @@ Replay replay(const std::filesystem::path& path, const std::optional<py::functio
 void bind_replay(py::module_& m) {
   py::class_<ReplayedStep>(m, "ReplayedStep", "One step of a call log, made again.")
       .def_readonly("number", &ReplayedStep::number, "from 0, in the log")
-      .def_readonly("time", &ReplayedStep::time, "t^n")
+      .def_readonly("time", &ReplayedStep::time, "t^n, in the unit of the host that recorded")
       .def_readonly("dt", &ReplayedStep::dt, "the step that ended there")
       .def_readonly("recorded", &ReplayedStep::recorded, "the results that the log holds")
       .def_readonly("replayed", &ReplayedStep::replayed, "the results of now")
@@ -36,9 +36,9 @@ void bind_replay(py::module_& m) {
   py::class_<Replay>(m, "Replay", "What came of the calls of a log.")
       .def_readonly("label", &Replay::label, "what the host called itself")
       .def_readonly("kind", &Replay::kind, "'two surfaces', 'nodes to surface' or 'both sides'")
-      .def_readonly("nodes", &Replay::nodes)
-      .def_readonly("facets", &Replay::facets)
-      .def_readonly("steps", &Replay::steps)
+      .def_readonly("nodes", &Replay::nodes, "number of the interface's nodes")
+      .def_readonly("facets", &Replay::facets, "number of the interface's facets, both sides")
+      .def_readonly("steps", &Replay::steps, "number of steps in the log")
       .def_readonly("different", &Replay::different, "steps that do not agree in every bit")
       .def_readonly("first_different", &Replay::first_different, "number of the first of them; -1: none")
       .def("__repr__", [](const Replay& r) {

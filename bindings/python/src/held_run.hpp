@@ -6,6 +6,7 @@
 #include <atomic>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "abut/run.hpp"
 
@@ -27,10 +28,16 @@ struct HeldRun {
 
 using RunClass = pybind11::class_<HeldRun>;
 
-/// A result with the interface it is of.
+/// A result with the interface it is of, and the nodes that its spans show until the next cycle only.
 struct NamedResult {
+  NamedResult(Id of, const InterfaceResult& r)
+      : id(of), result(r), crossed(r.crossed.begin(), r.crossed.end()), lost(r.lost.begin(), r.lost.end()) {
+    result.crossed = result.lost = {};
+  }
+
   Id id;
   InterfaceResult result;
+  std::vector<Index> crossed, lost;
 };
 
 void bind_results(pybind11::module_& m);

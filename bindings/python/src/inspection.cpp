@@ -141,7 +141,7 @@ void bind_inspection(py::module_& m) {
       .def_property_readonly(
           "nodes", [](const Finding& f) { return copy(std::span<const Index>(f.nodes)); }, "(K,) the host's node indices")
       .def_readonly("measure_name", &Finding::measure_name, "what `measure` is")
-      .def_readonly("measure", &Finding::measure)
+      .def_readonly("measure", &Finding::measure, "how bad it is, in the host's units")
       .def_readonly("what", &Finding::what, "one sentence: what was found")
       .def_readonly("advice", &Finding::advice, "one sentence: what to do")
       .def_property_readonly("histogram", &histogram, "(B, 3): low, high, count")
@@ -151,15 +151,22 @@ void bind_inspection(py::module_& m) {
   py::class_<InspectionLimits>(m, "InspectionLimits", "Beyond these the inspection speaks.")
       .def(py::init(&limits_of), py::kw_only(), "aspect_ratio"_a = d.aspect_ratio, "warp_degrees"_a = d.warp_degrees,
            "size_ratio"_a = d.size_ratio, "stiffness_ratio"_a = d.stiffness_ratio, "concave_degrees"_a = d.concave_degrees,
-           "gap_of_size"_a = d.gap_of_size, "steps_through_gap"_a = d.steps_through_gap);
+           "gap_of_size"_a = d.gap_of_size, "steps_through_gap"_a = d.steps_through_gap, "Every limit is a property too, described there.")
+      .def_readwrite("aspect_ratio", &InspectionLimits::aspect_ratio, "longest over shortest side of a facet")
+      .def_readwrite("warp_degrees", &InspectionLimits::warp_degrees, "angle between the two triangles of a quadrilateral, degrees")
+      .def_readwrite("size_ratio", &InspectionLimits::size_ratio, "mean facet size of one side over the other's, where they are near")
+      .def_readwrite("stiffness_ratio", &InspectionLimits::stiffness_ratio, "own stiffness of one side over the other's")
+      .def_readwrite("concave_degrees", &InspectionLimits::concave_degrees, "inward fold, degrees")
+      .def_readwrite("gap_of_size", &InspectionLimits::gap_of_size, "gap over the smallest facet size")
+      .def_readwrite("steps_through_gap", &InspectionLimits::steps_through_gap, "steps that the fastest approach takes through the gap");
 
   py::class_<contact::Facing>(m, "Facing", "Whether each facet of a side looks at the other side.")
       .def_property_readonly(
           "facets", [](const contact::Facing& f) { return py::array(py::dtype::of<std::int8_t>(), f.facet.size(), f.facet.data()); },
           "(F,) +1 faces, -1 faces away, 0 nothing near or undecided")
-      .def_readonly("area_facing", &contact::Facing::area_facing)
-      .def_readonly("area_away", &contact::Facing::area_away)
-      .def_readonly("distance", &contact::Facing::distance, "smallest distance of the centre of a facet to the other side")
+      .def_readonly("area_facing", &contact::Facing::area_facing, "length^2: area of the facets that face")
+      .def_readonly("area_away", &contact::Facing::area_away, "length^2: area of the facets that face away")
+      .def_readonly("distance", &contact::Facing::distance, "length: smallest distance of the centre of a facet to the other side")
       .def_property_readonly("fraction", &contact::Facing::fraction, "share of the decided area that faces; nan when nothing is decided");
 
   m.def("inspect", &inspect, "first"_a, "second"_a, "x"_a, py::kw_only(), "v"_a = py::none(), "mass"_a = py::none(), "gap"_a = 0.0,

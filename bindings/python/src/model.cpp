@@ -61,13 +61,14 @@ void bind_values(py::module_& m) {
       .def_readonly("mass", &Units::mass, "kg per unit")
       .def_readonly("length", &Units::length, "m per unit")
       .def_readonly("time", &Units::time, "s per unit")
-      .def_readonly("mass_name", &Units::mass_name)
-      .def_readonly("length_name", &Units::length_name)
-      .def_readonly("time_name", &Units::time_name)
+      .def_readonly("mass_name", &Units::mass_name, "as the deck writes it, e.g. 'kg'")
+      .def_readonly("length_name", &Units::length_name, "as the deck writes it, e.g. 'mm'")
+      .def_readonly("time_name", &Units::time_name, "as the deck writes it, e.g. 'ms'")
       .def("__repr__", [](const Units& u) { return "Units(" + u.mass_name + ", " + u.length_name + ", " + u.time_name + ")"; });
 
   py::class_<HeldTable>(m, "ElementTable", "All E elements of one kind, as read-only views.")
-      .def_property_readonly("kind", [](const HeldTable& t) { return name_of(t.table.kind, element_kinds); })
+      .def_property_readonly(
+          "kind", [](const HeldTable& t) { return name_of(t.table.kind, element_kinds); }, "'shell4', 'shell3', 'brick' or 'tetra'")
       .def_property_readonly(
           "ids", [](const HeldTable& t) { return view(t.table.id, t.model); }, "(E,) ascending")
       .def_property_readonly(
@@ -78,15 +79,15 @@ void bind_values(py::module_& m) {
       .def("__len__", [](const HeldTable& t) { return t.table.size(); });
 
   py::class_<PartInfo>(m, "Part", "A part of the deck.")
-      .def_readonly("id", &PartInfo::id)
-      .def_readonly("title", &PartInfo::title)
-      .def_readonly("property_id", &PartInfo::property_id)
-      .def_readonly("material_id", &PartInfo::material_id)
+      .def_readonly("id", &PartInfo::id, "of the deck")
+      .def_readonly("title", &PartInfo::title, "of the deck")
+      .def_readonly("property_id", &PartInfo::property_id, "id of its property")
+      .def_readonly("material_id", &PartInfo::material_id, "id of its material")
       .def("__repr__", [](const PartInfo& p) { return "<part " + std::to_string(p.id) + " '" + p.title + "'>"; });
 
   py::class_<SurfaceInfo>(m, "ModelSurface", "A surface of the deck.")
-      .def_readonly("id", &SurfaceInfo::id)
-      .def_readonly("title", &SurfaceInfo::title)
+      .def_readonly("id", &SurfaceInfo::id, "of the deck")
+      .def_readonly("title", &SurfaceInfo::title, "of the deck")
       .def_property_readonly(
           "facets", [](const SurfaceInfo& s) { return copy(std::span<const std::array<Index, 4>>(s.facets)); },
           "(F, 4) node indices; a triangle repeats its third")
@@ -95,16 +96,16 @@ void bind_values(py::module_& m) {
       });
 
   py::class_<InterfaceInfo>(m, "ModelInterface", "An interface of the deck.")
-      .def_readonly("id", &InterfaceInfo::id)
-      .def_readonly("title", &InterfaceInfo::title)
+      .def_readonly("id", &InterfaceInfo::id, "of the deck")
+      .def_readonly("title", &InterfaceInfo::title, "of the deck")
       .def_readonly("type", &InterfaceInfo::type, "'TYPE3', 'TYPE5' or 'TYPE7'")
       .def_readonly("surfaces", &InterfaceInfo::surface, "first and second, indices into Model.surfaces; -1: a set of nodes")
       .def_property_readonly(
           "nodes", [](const InterfaceInfo& i) { return copy(std::span<const Index>(i.nodes)); },
           "(S,) node indices held, of TYPE5 and TYPE7")
-      .def_readonly("stiffness_scale", &InterfaceInfo::stiffness_scale)
-      .def_readonly("friction", &InterfaceInfo::friction)
-      .def_readonly("gap", &InterfaceInfo::gap)
+      .def_readonly("stiffness_scale", &InterfaceInfo::stiffness_scale, "s of K = s K1 K2/(K1 + K2), without a unit (Stfac)")
+      .def_readonly("friction", &InterfaceInfo::friction, "Coulomb coefficient, without a unit (Fric)")
+      .def_readonly("gap", &InterfaceInfo::gap, "length at which a surface starts to repel (Gap)")
       .def("__repr__", [](const InterfaceInfo& i) { return "<interface " + std::to_string(i.id) + " " + i.type + " '" + i.title + "'>"; });
 }
 
@@ -113,11 +114,11 @@ void bind_inspection_results(py::module_& m) {
       .def_property_readonly(
           "kind", [](const StepController& c) { return name_of(c.kind, controller_kinds); },
           "'shell4', 'shell3', 'brick', 'tetra', 'node', 'interface', 'contact_node', 'fixed' or 'none'")
-      .def_readonly("id", &StepController::id, "of the element or node")
+      .def_readonly("id", &StepController::id, "of the element, node or interface; 0 when there is none")
       .def("__repr__", [](const StepController& c) { return "<" + name_of(c.kind, controller_kinds) + " " + std::to_string(c.id) + ">"; });
 
   py::class_<ContactFinding>(m, "ContactFinding", "One finding of the contact inspection in the deck's ids; str() is a line for people.")
-      .def_readonly("interface_id", &ContactFinding::interface_id)
+      .def_readonly("interface_id", &ContactFinding::interface_id, "of the deck")
       .def_readonly("surface_id", &ContactFinding::surface_id, "0: the interface as a whole, or its node group")
       .def_property_readonly(
           "severity", [](const ContactFinding& f) { return name_of(f.finding.severity, contact_severities); },
@@ -128,12 +129,15 @@ void bind_inspection_results(py::module_& m) {
           "what", [](const ContactFinding& f) { return f.finding.what; }, "one sentence: what was found")
       .def_property_readonly(
           "advice", [](const ContactFinding& f) { return f.finding.advice; }, "one sentence: what to do")
-      .def_property_readonly("measure_name", [](const ContactFinding& f) { return f.finding.measure_name; })
-      .def_property_readonly("measure", [](const ContactFinding& f) { return f.finding.measure; })
+      .def_property_readonly(
+          "measure_name", [](const ContactFinding& f) { return f.finding.measure_name; }, "what `measure` is, e.g. 'facing fraction'")
+      .def_property_readonly(
+          "measure", [](const ContactFinding& f) { return f.finding.measure; }, "how bad it is, in the model's units")
       .def_property_readonly(
           "nodes", [](const ContactFinding& f) { return copy(std::span<const Id>(f.nodes)); }, "(K,) node ids")
       .def_property_readonly(
-          "segments", [](const ContactFinding& f) { return copy(std::span<const std::array<Id, 4>>(f.segments)); }, "(K, 4) node ids")
+          "segments", [](const ContactFinding& f) { return copy(std::span<const std::array<Id, 4>>(f.segments)); },
+          "(K, 4) node ids; a triangle repeats its third")
       .def_readonly("finding", &ContactFinding::finding, "the same in node indices")
       .def("__str__", [](const ContactFinding& f) { return to_string(to_diagnostic(f)); })
       .def("__repr__", [](const ContactFinding& f) {
@@ -144,7 +148,7 @@ void bind_inspection_results(py::module_& m) {
   py::class_<Inspection>(m, "Inspection", "What can be said of a model before it runs.")
       .def_readonly("contact", &Inspection::contact, "findings, worst first for each interface")
       .def_property_readonly(
-          "part_masses", [](const Inspection& i) { return take(i.part_mass); }, "(P,) in the order of Model.parts")
+          "part_masses", [](const Inspection& i) { return take(i.part_mass); }, "(P,) masses in the order of Model.parts")
       .def_readonly("first_step", &Inspection::first_step, "time; 0 when it was not asked for, or when interfaces have errors")
       .def_readonly("controller", &Inspection::controller, "of the first step");
 }
@@ -164,10 +168,10 @@ void bind_model(py::module_& m) {
                   "Raises InputError with every finding when there is an error.")
       .def_static("from_text", &from_text, "starter"_a, "engines"_a, py::kw_only(), "name"_a = "deck", "orient"_a = false, "run"_a = 1,
                   "The same from text: `starter` holds what NAME_0000.rad would, `engines` is a list of what NAME_0001.rad, ... would.")
-      .def_property_readonly("name", &Model::name)
-      .def_property_readonly("title", &Model::title)
-      .def_property_readonly("units", &Model::units)
-      .def_property_readonly("end_time", &Model::end_time, "of the Engine deck")
+      .def_property_readonly("name", &Model::name, "NAME of NAME_0000.rad")
+      .def_property_readonly("title", &Model::title, "of the deck")
+      .def_property_readonly("units", &Model::units, "of everything: lengths, times, masses and what is made of them")
+      .def_property_readonly("end_time", &Model::end_time, "time at which the Engine deck ends the run")
       .def_property_readonly("run_number", &Model::run_number, "n of /RUN/name/n that the controls are of")
       .def_property_readonly("last_run_number", &Model::last_run_number, "of the last Engine deck that there is")
       .def_property_readonly(
@@ -185,7 +189,7 @@ void bind_model(py::module_& m) {
       .def_property_readonly(
           "coordinates", [](const py::object& self) { return view(self.cast<const Model&>().coordinates(), self); }, "(N, 3) lengths")
       .def("node_indices", &node_indices, "ids"_a,
-           "Positions of nodes in the order of node_ids. Raises KeyError for an id that there is not.")
+           "(K,) positions of nodes in the order of node_ids, for ids (K,). Raises KeyError for an id that there is not.")
       .def(
           "elements",
           [](const py::object& self, const std::string& kind) {

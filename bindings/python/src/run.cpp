@@ -91,15 +91,15 @@ std::vector<NamedResult> interface_results(const HeldRun& self) {
   std::vector<NamedResult> all;
   const auto infos = run.model().interfaces();
   const auto results = run.interfaces();
-  for (std::size_t i = 0; i < std::min(infos.size(), results.size()); ++i) all.push_back({infos[i].id, results[i]});
+  for (std::size_t i = 0; i < std::min(infos.size(), results.size()); ++i) all.emplace_back(infos[i].id, results[i]);
   return all;
 }
 
 void bind_edit(py::module_& m) {
   py::class_<Edit>(m, "Edit",
                    "Velocities to be changed inside a `with` block: copies that the run takes over at its end, not after an exception.")
-      .def_readwrite("velocities", &Edit::velocities, "(N, 3)")
-      .def_readwrite("angular_velocities", &Edit::angular_velocities, "(N, 3) or (0, 3)")
+      .def_readwrite("velocities", &Edit::velocities, "(N, 3) length/time, half a step before Run.time; None before the block begins")
+      .def_readwrite("angular_velocities", &Edit::angular_velocities, "(N, 3) radians/time, (0, 3) in models without rotations")
       .def("__enter__",
            [](const py::object& self) {
              self.cast<Edit&>().enter();
@@ -115,7 +115,8 @@ void bind_state(RunClass& run) {
     run.def_property_readonly(
         name, [member](const py::object& self) { return view((run_of(self).*member)(), self); }, doc);
   };
-  run.def_property_readonly("model", [](const HeldRun& self) { return self.run->model(); })
+  run.def_property_readonly(
+         "model", [](const HeldRun& self) { return self.run->model(); }, "what moves")
       .def_property_readonly(
           "time", [](const HeldRun& self) { return self.idle().time(); }, "t of positions")
       .def_property_readonly(
@@ -128,17 +129,20 @@ void bind_state(RunClass& run) {
           "controller", [](const HeldRun& self) { return self.idle().controller(); }, "who gave the step")
       .def_property_readonly(
           "state_hash", [](const HeldRun& self) { return self.idle().hash(); }, "over every bit of the state that influences the future");
-  points_of("positions", &Run::positions, "(N, 3) lengths at `time`; a read-only view");
-  points_of("displacements", &Run::displacements, "(N, 3) lengths; a read-only view");
-  points_of("accelerations", &Run::accelerations, "(N, 3) a read-only view");
-  points_of("contact_forces", &Run::contact_forces, "(N, 3) forces of all interfaces; a read-only view");
-  points_of("masses", &Run::masses, "(N,) a read-only view");
+  points_of("positions", &Run::positions,
+            "(N, 3) lengths at `time`; a read-only view.\n\n"
+            "Between cycles velocities can be changed, positions cannot: stresses and the anchors of friction are sums over the way that\n"
+            "nodes have gone, and a jump has no work that the balance could book. A position is reached by a velocity.");
+  points_of("displacements", &Run::displacements, "(N, 3) lengths, positions less Model.coordinates; a read-only view");
+  points_of("accelerations", &Run::accelerations, "(N, 3) length/time^2 at `force_time`; a read-only view");
+  points_of("contact_forces", &Run::contact_forces, "(N, 3) forces, the sum of all interfaces, at `force_time`; a read-only view");
+  points_of("masses", &Run::masses, "(N,) masses, added ones included; a read-only view");
   run.def_property("velocities", &velocities, &set_velocities,
-                   "(N, 3) half a step before `time`; read-only, assign to change all of them, or use edit().\n\n"
+                   "(N, 3) length/time, half a step before `time`; read-only, assign to change all of them, or use edit().\n\n"
                    "The energy that a change brings is booked as external work. Nodes whose motion is imposed, and secondary nodes of\n"
                    "rigid bodies, take no notice.")
       .def_property("angular_velocities", &angular_velocities, &set_angular_velocities,
-                    "(N, 3) rate; as velocities. Empty in models without rotations.")
+                    "(N, 3) radians/time; as velocities. Empty in models without rotations.")
       .def(
           "edit", [](const py::object& self) { return Edit{self}; },
           "`with run.edit() as e: e.velocities[nodes] = v` changes velocities (and angular_velocities) before the next cycle.");
@@ -152,8 +156,8 @@ void bind_answers(RunClass& run) {
            "A field of the animation at every node: (N,) or (N, components). Raises ValueError for another name.")
       .def("element_field", &element_field, "kind"_a, "name"_a,
            "The same for all elements of one kind: (E,) or (E, components); nan for deleted elements.")
-      .def_static("node_field_names", &Run::node_field_names)
-      .def_static("element_field_names", &Run::element_field_names)
+      .def_static("node_field_names", &Run::node_field_names, "What node_field() knows.")
+      .def_static("element_field_names", &Run::element_field_names, "What element_field() knows.")
       .def_property_readonly("history", &history, "the time history so far: a History, a copy")
       .def_property_readonly(
           "initial_findings",

@@ -122,7 +122,8 @@ void bind_going(RunClass& run) {
       .def(
           "interrupt", [](HeldRun& self) { self.interrupt.store(true); },
           "Asks a run that goes on in another thread to end after its cycle, with complete files. Any thread may call this.")
-      .def_property_readonly("is_over", [](const HeldRun& self) { return self.idle().is_over(); })
+      .def_property_readonly(
+          "is_over", [](const HeldRun& self) { return self.idle().is_over(); }, "True when it has ended: nothing goes on any more")
       .def_property_readonly(
           "outcome",
           [](const HeldRun& self) {

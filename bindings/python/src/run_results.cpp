@@ -35,24 +35,24 @@ void bind_results(py::module_& m) {
       .def_readonly("err", &Balance::err, "error of the balance over the largest term")
       .def_readonly("ledger", &Balance::ledger, "the same with the discrete works")
       .def_property_readonly(
-          "momentum", [](const Balance& b) { return copy(b.momentum); }, "(3,)")
-      .def_readonly("mass", &Balance::mass)
-      .def_readonly("added_mass", &Balance::added_mass, "by mass scaling")
+          "momentum", [](const Balance& b) { return copy(b.momentum); }, "(3,) of all nodes, mass x speed")
+      .def_readonly("mass", &Balance::mass, "of all nodes, added mass included")
+      .def_readonly("added_mass", &Balance::added_mass, "by mass scaling, in the model's unit of mass")
       .def("terms", &balance_terms, "The energies as a dict with the names of the time history (IE, HE, ...).")
       .def("__repr__", [](const Balance& b) {
         return "Balance(" + py::cast<std::string>(py::repr(balance_terms(b))) + ", err=" + std::to_string(b.err) + ")";
       });
 
   py::class_<NamedResult>(m, "InterfaceResult", "Forces of the last cycle, impulses since the start, on the second surface; energies.")
-      .def_readonly("id", &NamedResult::id)
+      .def_readonly("id", &NamedResult::id, "of the interface in the deck")
       .def_property_readonly(
-          "normal_force", [](const NamedResult& r) { return copy(r.result.normal_force); }, "(3,)")
+          "normal_force", [](const NamedResult& r) { return copy(r.result.normal_force); }, "(3,) on the second surface")
       .def_property_readonly(
-          "tangential_force", [](const NamedResult& r) { return copy(r.result.tangential_force); }, "(3,)")
+          "tangential_force", [](const NamedResult& r) { return copy(r.result.tangential_force); }, "(3,) friction on the second surface")
       .def_property_readonly(
           "normal_impulse", [](const NamedResult& r) { return copy(r.result.normal_impulse); }, "(3,) force x time")
       .def_property_readonly(
-          "tangential_impulse", [](const NamedResult& r) { return copy(r.result.tangential_impulse); }, "(3,)")
+          "tangential_impulse", [](const NamedResult& r) { return copy(r.result.tangential_impulse); }, "(3,) force x time")
       .def_property_readonly(
           "ce", [](const NamedResult& r) { return r.result.ce; }, "energy stored")
       .def_property_readonly(
@@ -68,9 +68,19 @@ void bind_results(py::module_& m) {
       .def_property_readonly(
           "largest_penetration", [](const NamedResult& r) { return r.result.largest_penetration; }, "length")
       .def_property_readonly(
-          "crossed", [](const NamedResult& r) { return r.result.crossed.size(); }, "nodes caught before they jumped through")
+          "deepest_node", [](const NamedResult& r) { return r.result.deepest_node; },
+          "index of the node that has penetrated by that much; -1: none")
       .def_property_readonly(
-          "lost", [](const NamedResult& r) { return r.result.lost.size(); }, "nodes that went over a free border in the last step")
+          "crossed", [](const NamedResult& r) { return r.crossed.size(); },
+          "number of nodes caught in the last cycle before they jumped through")
+      .def_property_readonly(
+          "lost", [](const NamedResult& r) { return r.lost.size(); }, "number of nodes that went over a free border in the last cycle")
+      .def_property_readonly(
+          "crossed_nodes", [](const NamedResult& r) { return copy(std::span<const Index>(r.crossed)); },
+          "(crossed,) their indices in the order of Model.node_ids")
+      .def_property_readonly(
+          "lost_nodes", [](const NamedResult& r) { return copy(std::span<const Index>(r.lost)); },
+          "(lost,) their indices in the order of Model.node_ids")
       .def("__repr__", [](const NamedResult& r) {
         return "<interface " + std::to_string(r.id) + ": " + std::to_string(r.result.in_contact) + " nodes in contact>";
       });
@@ -78,18 +88,23 @@ void bind_results(py::module_& m) {
   py::class_<Outcome>(m, "Outcome", "Why and how a run ended.")
       .def_property_readonly(
           "kind", [](const Outcome& o) { return name_of(o.kind, outcome_kinds); }, "'finished', 'stopped', 'interrupted' or 'failed'")
-      .def_readonly("message", &Outcome::message)
-      .def_readonly("cycles", &Outcome::cycles)
-      .def_readonly("time", &Outcome::time)
+      .def_readonly("message", &Outcome::message, "why, for people; empty when there is nothing to say")
+      .def_readonly("cycles", &Outcome::cycles, "done")
+      .def_readonly("time", &Outcome::time, "reached, in the model's unit of time")
       .def("__str__", [](const Outcome& o) { return to_string(o); })
       .def("__repr__", [](const Outcome& o) { return "<" + to_string(o) + ">"; });
 
   py::class_<RunFinding>(m, "RunFinding", "What the watch over the contacts found while the run went on.")
-      .def_readonly("diagnostic", &RunFinding::diagnostic)
-      .def_readonly("interface_id", &RunFinding::interface_id)
-      .def_readonly("time", &RunFinding::time)
-      .def_readonly("cycle", &RunFinding::cycle)
-      .def_readonly("measure", &RunFinding::measure)
+      .def_readonly("diagnostic", &RunFinding::diagnostic, "code and sentence; the sentence names up to twenty nodes")
+      .def_readonly("interface_id", &RunFinding::interface_id, "of the deck")
+      .def_readonly("time", &RunFinding::time, "when it was found, in the model's unit of time")
+      .def_readonly("cycle", &RunFinding::cycle, "when it was found, cycles from 0")
+      .def_readonly("measure", &RunFinding::measure, "how bad it is; docs/findings/index.md says of what, code by code")
+      .def_property_readonly(
+          "nodes", [](const RunFinding& f) { return copy(std::span<const Id>(f.nodes)); }, "(K,) node ids, all of them")
+      .def_property_readonly(
+          "segments", [](const RunFinding& f) { return copy(std::span<const std::array<Id, 4>>(f.segments)); },
+          "(K, 4) node ids of segments; a triangle repeats its third")
       .def("__str__", [](const RunFinding& f) { return to_string(f.diagnostic); })
       .def("__repr__",
            [](const RunFinding& f) { return "<" + f.diagnostic.code + " of interface " + std::to_string(f.interface_id) + ">"; });

@@ -11,6 +11,7 @@
 namespace abut::contact {
 
 /// Gap of a pair: max(gap, min(node_gap + facet_gap, gap_max, node_size + facet_size)); `gap` alone where the arrays are empty.
+/// Ranges and lengths are checked when the interface is made: std::invalid_argument.
 /// Stiffness of a pair: from the facet's K_m (SurfaceState of side 1) and the node's K_s (side 0), see Stiffness.
 struct BothSidesOptions {
   double gap = 0.0;                ///< length, > 0: distance at which a facet starts to repel, at least
@@ -22,14 +23,14 @@ struct BothSidesOptions {
 
   /// K: of the facet, mean, larger, smaller of both, or in series (Istf 0 and 1, 2, 3, 4, 5). All but the first are clipped.
   enum class Stiffness { facet, mean, larger, smaller, series } stiffness = Stiffness::facet;
-  double stiffness_min = 0.0, stiffness_max = 1e30;
+  double stiffness_min = 0.0, stiffness_max = 1e30;  ///< force/length
 
   double friction = 0.0;     ///< Coulomb coefficient, >= 0
   FrictionLaw friction_law;  ///< how it depends on pressure and speed
   FrictionFilter filter;     ///< of the friction force (viscous) or of its increment (incremental)
   enum class Friction { viscous, incremental } friction_form = Friction::viscous;
-  double damping = 0.05;            ///< VIS_s, fraction of critical
-  double friction_viscosity = 1.0;  ///< VIS_F of the viscous form, 0 without friction
+  double damping = 0.05;            ///< VIS_s, fraction of critical; >= 0
+  double friction_viscosity = 1.0;  ///< VIS_F of the viscous form, 0 without friction; >= 0
 
   /// What a pair does that penetrates at the start: full force; the gap begins at what is there (Inacti 5; 6 with a
   /// margin of 5 % of the rest of the gap); the node leaves (1); the facet has no stiffness (2).
@@ -37,9 +38,9 @@ struct BothSidesOptions {
   enum class Initial { keep, offset, offset_with_margin, drop_nodes, drop_facets } initial = Initial::keep;
   double largest_penetration = 0.0;  ///< Fpenmax: nodes deeper than this share of the gap at the start leave; 0: off
 
-  double birth = 0.0, death = 1e30;
-  double step_minimum = 0.0;  ///< nodes whose contact step falls below leave for good; 0: off
-  double step_scale = 0.9;    ///< factor of that test
+  double birth = 0.0, death = 1e30;  ///< times from which and until which it acts
+  double step_minimum = 0.0;         ///< time: nodes whose contact step falls below leave for good; 0: off
+  double step_scale = 0.9;           ///< factor of that test
   /// What dampers hand to the nodal sum: c/h as the reference program, or 2 c/h and the friction spring too, which keeps two free
   /// bodies stable (forces at t^n are made of speeds at n - 1/2: h <= 2/lambda(C)).
   bool reference_step = false;
@@ -68,6 +69,7 @@ struct BothSidesOptions {
     return std::clamp(k, stiffness_min, stiffness_max);
   }
 
+  /// Some coefficient is not zero.
   [[nodiscard]] bool rubs() const { return friction > 0.0 || friction_law.model != FrictionLaw::Model::coulomb; }
 };
 

@@ -40,7 +40,8 @@ struct Replay {
 
 /// Makes the calls of a log again, on an interface of its own.
 /// @param log   opened in binary mode, at its beginning
-/// @param each  called after every step
+/// @param each  called after every step; what it throws ends the replay and comes through
+/// @return counts; a step that differs is no error, see Replay::different
 /// @throws std::invalid_argument when the file is no log, of another version or byte order, damaged, or ends inside a record;
 ///         the message names the record and its place in the file
 Replay replay(std::istream& log, const std::function<void(const ReplayedStep&)>& each = {});

@@ -2,6 +2,9 @@
 //
 // docs/findings/index.md has a section with a picture for every code. Nothing here throws for bad geometry: bad geometry is
 // what it looks for. Lengths, stiffnesses and masses are in the host's consistent units.
+//
+// The one precondition, of all functions that take an InspectionInput: every node index of its sides lies in 0 ... #N - 1, x has finite
+// #N positions, and a span that is not empty has the length written beside it. It is not checked: Interface::inspect() and Python do.
 #pragma once
 
 #include <array>
@@ -52,6 +55,7 @@ struct InspectedSide {
   std::span<const double> size = {};
 };
 
+/// #N is the number of the host's nodes; spans live as long as the call.
 struct InspectionInput {
   std::array<InspectedSide, 2> side;
   bool both_sides = false;  ///< facets of side 1 repel nodes of side 0 on both sides (TYPE7): normals do not matter
@@ -79,6 +83,8 @@ struct InspectionLimits {
 };
 
 /// Everything that can be said before the first step, worst first; findings of one severity in the order of the documentation.
+/// A host that has an Interface asks Interface::inspect().
+/// @pre indices lie inside x, see the head of this file
 [[nodiscard]] std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimits& limits = {});
 
 /// Does each facet look at the other side? The rule is in docs/findings/index.md ("The facing rule").
@@ -94,6 +100,7 @@ struct Facing {
   }
 };
 /// Both sides; a side without facets has an empty answer. O(F log F).
+/// @pre indices lie inside x, see the head of this file; velocities, masses and stiffnesses are not looked at
 [[nodiscard]] std::array<Facing, 2> facing(const InspectionInput& input);
 
 /// Which facets to reverse so that each side is oriented alike and faces the other.
@@ -101,14 +108,16 @@ struct Orientation {
   std::array<std::vector<Index>, 2> flip;  ///< facets to reverse, ascending
   std::array<bool, 2> ambiguous{};         ///< some piece of this side has no clear answer; it is left as it is
 };
+/// @pre indices lie inside x, see the head of this file; velocities, masses and stiffnesses are not looked at
+/// @post with the facets of `flip` replaced by reversed(), orient() has nothing more to flip
 [[nodiscard]] Orientation orient(const InspectionInput& input);
 
-/// The facet with its normal turned.
+/// The facet with its normal turned: the same nodes, a triangle stays a triangle.
 [[nodiscard]] inline Facet reversed(const Facet& f) {
   return f.is_triangle() ? Facet{{f.node[1], f.node[0], f.node[2], f.node[2]}} : Facet{{f.node[3], f.node[2], f.node[1], f.node[0]}};
 }
 
-/// Every code that inspect() can give, in the order of the documentation.
+/// Every code that inspect() can give, in the order of the documentation; valid for the whole program.
 [[nodiscard]] std::span<const std::string_view> inspection_codes();
 
 }  // namespace abut::contact

@@ -8,6 +8,7 @@
 // h <= s sqrt(2 m / K) for every node keeps central differences stable (numerics.md 2.3).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "abut/contact/both_sides.hpp"
+#include "abut/contact/inspect.hpp"
 #include "abut/contact/mobility.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/contact/surface.hpp"
@@ -58,17 +60,26 @@ struct HostState {
   std::span<const Mobility> mobility = {};
 };
 
+/// #N is the number of the host's nodes: spans of #N may be longer than the interface needs, not shorter. set_surface()
+/// and the three verbs leave the interface as it was when they throw std::invalid_argument or std::logic_error. One thread at a time;
+/// different interfaces are independent. A moved-from interface may be assigned to or destroyed, nothing else.
 class Interface {
  public:
-  /// TYPE3: two passes; neither surface is main (T2, T10). @throws std::invalid_argument when a node lies on both (T6).
+  /// TYPE3: two passes; neither surface is main (T2, T10).
+  /// @throws std::invalid_argument when a node lies on both (T6), or an option is out of its range (options.hpp)
   static Interface two_surfaces(Surface first, Surface second, const Options& options);
   /// TYPE5: the nodes are held against the surface, one pass. `node_stiffness` #nodes: their own stiffness
   /// (sum of a quarter per facet around them); used in series unless rules.one_pass_half_stiffness. Empty: half of the
   /// facet's stiffness is taken. Their order is the order of sums: sort them by key.
+  /// @param nodes  #nodes host indices, each >= 0; they may lie on the surface
+  /// @throws std::invalid_argument when a node is listed twice, node_stiffness is neither empty nor #nodes long, or an option is out
+  ///         of its range (options.hpp)
   static Interface nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options);
 
   /// TYPE7: every node-facet pair within the gap repels, on both sides. The surface is side 1.
-  /// @throws std::invalid_argument without a gap or with arrays of a wrong length
+  /// @param nodes  #nodes host indices, each >= 0 and listed once; they may lie on the surface
+  /// @throws std::invalid_argument without a gap, with another option out of its range, with arrays that are not #nodes or #F long or
+  ///         lack their partner
   static Interface both_sides(std::vector<Index> nodes, Surface surface, const BothSidesOptions& options);
 
   ~Interface();
@@ -78,7 +89,7 @@ class Interface {
   /// @param side 0 first, 1 second. Of nodes_to_surface and both_sides 1 is the surface and 0 the held nodes: stiffness and active
   ///        are then #nodes (an inactive node is let go), thickness is not used.
   /// Spans that are empty leave what was set before. May be called at any time.
-  /// @throws std::invalid_argument on a wrong length, a negative or non-finite stiffness or thickness
+  /// @throws std::invalid_argument on a side that is neither 0 nor 1, a wrong length, a negative or non-finite stiffness or thickness
   void set_surface(int side, const SurfaceState& state);
 
   /// Moves that take initial penetrations away, for the host to apply before its masses and reference geometry are made
@@ -86,30 +97,54 @@ class Interface {
   /// interfaces treat their nodes one after the other, twice, each on what its predecessors left; a node moved several times
   /// appears once with the sum. Two-sided ones take the largest move of a node.
   /// @param x  #N by 3, positions; stiffness, activity and time window do not matter
+  /// @return moves of host nodes, each node once; empty when nothing penetrates. The interface is as before.
+  /// @throws std::invalid_argument when x is too short
   [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const;
   /// Loops over nodes run through `executor` from now on; without one they run in the caller.
   void set_executor(Executor executor);
 
+  /// contact::inspect() of what this interface knows of itself: its sides, the stiffness that set_surface() gave them, gap, stiffness
+  /// scale and kind. Eroded facets are looked at like others. Any time, best before the first step; the interface is as before.
+  /// @param host  x #N by 3; v #N by 3 or empty: at rest; mass #N or empty: not known, 0 for a node that cannot move. Times do not matter
+  /// @param element_step  time: stable step without the interface; 0: not known
+  /// @param outward  of both sides, see InspectedSide::outward: #F or empty
+  /// @return findings, worst first; Finding::facets are positions in the surface as it was given, Finding::nodes host indices
+  /// @throws std::invalid_argument when a span is too short, or outward is neither empty nor #F long
+  [[nodiscard]] std::vector<Finding> inspect(const HostState& host, double element_step = 0.0,
+                                             const std::array<std::span<const std::int8_t>, 2>& outward = {},
+                                             const InspectionLimits& limits = {}) const;
+
   /// Once per step, before evaluate, with the same positions.
-  /// @throws std::invalid_argument when a span of the host is too short for the interface's nodes (all three verbs' spans), or
-  ///         `constrained` names an entry that does not exist
+  /// @pre positions and velocities are finite, masses are >= 0
+  /// @throws std::invalid_argument when x, v or a mass that is not empty is too short for the interface's nodes, or `constrained` names an
+  ///         entry that does not exist
   void search(const HostState& host);
   /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added
   /// @param stiffness #N: contact stiffness is added (numerics.md 2.3 convention: h <= sqrt(2 m / K))
-  /// @throws std::logic_error without a search in this step
+  /// @throws std::logic_error without a search in this step, std::invalid_argument when a span is too short for the interface's nodes
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness);
   /// @param dt  h_+, the step that the host takes now
+  /// @pre dt is finite and >= 0; the host gives it to the next search() as HostState::dt
   /// @throws std::logic_error without an evaluate in this step
   void commit(double dt);
 
-  /// Normal and tangential contact force on host nodes are added (output); tributary area of its surfaces' nodes too.
+  /// Normal and tangential contact force of the last evaluate() on host nodes are added (output).
+  /// @param normal, tangential  #N by 3, forces
+  /// @throws std::invalid_argument when one is too short
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const;
+  /// Adds the tributary area of the nodes of its surfaces: a quarter (third) of each facet around them.
+  /// @param x     #N by 3, positions
+  /// @param area  #N, length^2
+  /// @throws std::invalid_argument when one is too short
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const;
   /// Merges what this interface knows of its held nodes into #N values: the smallest opening, the deepest penetration, the larger state.
   /// At the positions of the last search().
+  /// @param nodes  #N
+  /// @throws std::invalid_argument when it is too short
   void add_nodal_contact(std::span<NodalContact> nodes) const;
-  /// Held nodes in contact now (host indices, each once): boundary-condition release (IBC) asks for it.
+  /// Held nodes in contact in the last evaluate (host indices, each once, empty before the first): boundary-condition release (IBC) asks
+  /// for it. This span and the next two are valid until the next evaluate(), restore() or the interface's end or move.
   [[nodiscard]] std::span<const Index> nodes_in_contact() const;
   /// Held nodes of StepResult::crossed and StepResult::lost in the last evaluate (host indices). Empty for both_sides.
   [[nodiscard]] std::span<const Index> nodes_crossed() const;
@@ -118,15 +153,16 @@ class Interface {
   /// Explicit history (friction anchors, held pairs, energies, previous forces): a host can checkpoint it between commit and search.
   /// With what set_surface() was given it is all that an interface made anew needs to go on with the same bits.
   [[nodiscard]] std::vector<std::byte> history() const;
+  /// @post the next verb is search()
   /// @throws std::invalid_argument, naming which, on a blob that is damaged, of another version of the library or of another interface
   void restore(std::span<const std::byte> history);
 
   /// From now on every input is written to `log`, see abut/contact/call_log.hpp. Results do not change by it.
   /// @param log    opened in binary mode; must live until stop_recording() or the interface's end
   /// @param label  what the host wants to find in the log: its name, version, job
-  /// @throws std::runtime_error here and in later calls when the log cannot be written
+  /// It takes the place of a recording that goes on. @throws std::runtime_error here and in later calls when the log cannot be written
   void record(std::ostream& log, std::string_view label = {});
-  void stop_recording();
+  void stop_recording();  ///< nothing is written any more; nothing when there is no recording
 
  private:
   struct Made;

@@ -54,24 +54,25 @@ struct Rules {
   [[nodiscard]] static Rules reference() { return {Law::constant, Edges::plain, true, true, true, true, false, true, false}; }
 };
 
-/// Options of a one-sided interface (TYPE3: two passes, TYPE5: one).
+/// Options of a one-sided interface (TYPE3: two passes, TYPE5: one). The ranges are checked when the interface is made:
+/// std::invalid_argument.
 struct Options {
   double stiffness_scale = 0.2;   ///< s (T14); must be > 0
   double friction = 0.0;          ///< Coulomb coefficient (T19); >= 0
   FrictionLaw friction_law;       ///< how it depends on pressure and speed
   FrictionFilter filter;          ///< of the trial friction force
-  double tangential_ratio = 0.1;  ///< K_t / K_n (T21)
+  double tangential_ratio = 0.1;  ///< K_t / K_n (T21); > 0
   double gap = 0.0;               ///< length (T25..T28); >= 0
   double birth = 0.0;             ///< time from which the interface acts
   double death = 1e30;            ///< time after which it does not
   /// Gradual start: what overlaps (or lies within the gap) at birth is pushed apart over this time, not at once. Each node's
   /// gap begins at what is there, as with Initial::offset, and grows to the full gap; 0: off. With `keep` and `offset` only.
   double start_duration = 0.0;
-  double shear_limit = 1e30;  ///< Ptlim: largest friction stress; > 0
+  double shear_limit = 1e30;  ///< Ptlim: largest friction stress, force/length^2; > 0
   /// Normal viscosity as a fraction of critical of the pair; 0 (as in the theory) to 1. It never pulls.
   double damping = 0.0;
   Initial initial = Initial::keep;
-  double depth_limit = 0.0;  ///< how far behind a facet a node is still held when first met; 0: from facet size
+  double depth_limit = 0.0;  ///< length, >= 0: how far behind a facet a node is still held when first met; 0: from facet size
   Rules rules;
 
   /// Some coefficient is not zero.
@@ -81,7 +82,7 @@ struct Options {
 /// A node that is moved so that it no longer penetrates at the start.
 struct Projection {
   Index node = no_index;
-  Vec3 by;
+  Vec3 by;  ///< length
 };
 
 /// What a held node has to do with the other side, for output.
@@ -94,7 +95,7 @@ struct NodalContact {
   double penetration = 0.0;  ///< P of a node in contact, else 0
 };
 
-/// Merges what one interface says of a node into what others said.
+/// Merges what one interface says of a node into what others said: the smallest opening, the deepest penetration, the larger state.
 inline void merge(NodalContact& into, const NodalContact& from) {
   into.state = std::max(into.state, from.state);
   into.penetration = std::max(into.penetration, from.penetration);
@@ -112,12 +113,14 @@ struct StepResult {
   double made = 0.0;
   Vec3 normal_force;  ///< on the second (main) surface
   Vec3 tangential_force;
-  Index in_contact = 0;  ///< held nodes with P > 0, both passes
-  double largest_penetration = 0.0;
-  Index deepest_node = no_index;  ///< host node that has it
-  Index crossed = 0;              ///< nodes that the swept test caught in this step: they would have jumped through
+  Index in_contact = 0;              ///< held nodes with P > 0, both passes
+  double largest_penetration = 0.0;  ///< P, length
+  Index deepest_node = no_index;     ///< host node that has it
+  Index crossed = 0;                 ///< nodes that the swept test caught in this step: they would have jumped through
   Index lost = 0;  ///< nodes that went over a free border with P > 0 in this step, held ones or straight through (closest points only)
-  double largest_approach = 0.0;  ///< normal approach in the last step, in units of gap (gap > 0)
+  /// Largest normal approach in the last step (t^n - h_- to t^n) of a held node that is in contact or near it, in units of the gap: at 1 a
+  /// node takes the whole gap in a step. 0 where nothing closes in, in the first cycle, and always with Gap = 0, which has no such unit.
+  double largest_approach = 0.0;
   /// Upper limit of the coming step: gap - P against closing speed, and the step that a light pair's last force was made for; 1e30: none.
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;  ///< host node that gives it

@@ -18,24 +18,25 @@ struct Facet {
   [[nodiscard]] int corners() const { return is_triangle() ? 3 : 4; }
 };
 
-/// Topology of a surface. What changes (stiffness, thickness, activity) is handed to Interface as spans, #F each.
+/// Topology of a surface. Spans live as long as the surface. What changes (stiffness, thickness, activity) is handed to Interface as spans,
+/// #F each.
 class Surface {
  public:
   Surface() = default;
   /// @param facets  #F faces; degenerate spellings (n4 = 0, n4 = n1, n2 = n3, n1 = n2) must already be normalised
   /// @param node_key  #N keys (ids) of the host's nodes that order every sum; empty: the host's index is the key
   /// @throws std::invalid_argument naming the facet (0-based) when it has fewer than three distinct nodes, a negative
-  ///         node, or appears twice
+  ///         node, or appears twice; naming the node when node_key is not empty and too short for it
   explicit Surface(std::vector<Facet> facets, std::span<const Id> node_key = {});
 
   [[nodiscard]] std::span<const Facet> facets() const { return facets_; }  ///< #F, as given
   [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }    ///< #S host nodes, by key, distinct
   /// Facets by surface-local node numbers (positions in nodes()).
   [[nodiscard]] std::span<const std::array<Index, 4>> local() const { return local_; }
-  /// Facets at surface node s (each once), ascending.
+  /// Facets at surface node s (each once), ascending. @pre 0 <= s < node_count()
   [[nodiscard]] std::span<const Index> facets_at(Index s) const;
   /// Facet across edge e (corner e to corner e+1) of facet f; no_index at a free border or a junction of more than two.
-  /// A triangle has edges 0, 1 and 2 (corner 2 to corner 0).
+  /// A triangle has edges 0, 1 and 2 (corner 2 to corner 0). @pre 0 <= f < facet_count(), 0 <= e < facets()[f].corners(); free_border() too
   [[nodiscard]] Index neighbour(Index f, int e) const { return neighbours_[static_cast<std::size_t>(f)][static_cast<std::size_t>(e)]; }
   /// True when edge e of facet f belongs to no other facet.
   [[nodiscard]] bool free_border(Index f, int e) const { return (borders_[static_cast<std::size_t>(f)] >> e & 1) != 0; }
@@ -47,7 +48,7 @@ class Surface {
   /// Order of the facets that does not depend on how they were listed: by their nodes' keys.
   [[nodiscard]] std::vector<Index> canonical_order() const;
   /// The same surface with its facets listed as facets()[order[0]], facets()[order[1]], ...
-  /// @param order  #F, a permutation
+  /// @param order  #F, a permutation of 0 ... facet_count() - 1: a precondition, not checked
   [[nodiscard]] Surface reordered(std::span<const Index> order) const;
 
  private:

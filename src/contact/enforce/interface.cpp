@@ -98,6 +98,33 @@ std::vector<Projection> Interface::projections(std::span<const Vec3> x, bool mov
 
 void Interface::set_executor(Executor executor) { made_->model->set_executor(std::move(executor)); }
 
+std::vector<Finding> Interface::inspect(const HostState& host, double element_step,
+                                        const std::array<std::span<const std::int8_t>, 2>& outward, const InspectionLimits& limits) const {
+  made_->check(host.x.size(), "x");
+  made_->check(host.v.size(), "v", true);
+  made_->check(host.mass.size(), "mass", true);
+  const Recipe& recipe = made_->recipe;
+  InspectionInput input;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t facets = recipe.side[k].facets.size();
+    if (!outward[k].empty() && outward[k].size() != facets) {
+      throw std::invalid_argument("contact: " + std::to_string(outward[k].size()) + " values of outward for " + std::to_string(facets) +
+                                  " facets");
+    }
+    input.side[k] = {recipe.side[k].facets, {}, {}, outward[k]};
+    if (facets > 0) input.side[k].stiffness = made_->surfaces[k].stiffness;
+  }
+  input.side[0].nodes = recipe.nodes;
+  input.both_sides = recipe.kind == Recipe::Kind::both_sides;
+  input.gap = input.both_sides ? recipe.both.gap : recipe.options.gap;
+  input.stiffness_scale = recipe.options.stiffness_scale;
+  input.x = host.x;
+  input.v = host.v;
+  input.mass = host.mass;
+  input.element_step = element_step;
+  return contact::inspect(input, limits);
+}
+
 void Interface::search(const HostState& host) {
   made_->check(host);
   if (made_->recorder) made_->recorder->search(host);

@@ -2,9 +2,11 @@
 // T30 a gap that is large for its segments, among them).
 #include <gtest/gtest.h>
 
+#include <abut/contact/interface.hpp>
 #include <cmath>
 #include <functional>
 #include <set>
+#include <stdexcept>
 
 #include "inspect_scenes.hpp"
 
@@ -402,6 +404,88 @@ TEST(Inspection, T29_counts_the_steps_through_the_gap) {
   const Finding* f = test::find(found, "contact.gap_small", -1);
   ASSERT_NE(f, nullptr);
   EXPECT_NEAR(f->measure, 1.0, 1e-9);
+}
+
+void expect_same(const std::vector<Finding>& a, const std::vector<Finding>& b, const char* where) {
+  ASSERT_EQ(a.size(), b.size()) << where;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].code, b[i].code) << where;
+    EXPECT_EQ(a[i].severity, b[i].severity) << where;
+    EXPECT_EQ(a[i].side, b[i].side) << where;
+    EXPECT_EQ(a[i].facets, b[i].facets) << where;
+    EXPECT_EQ(a[i].nodes, b[i].nodes) << where;
+    EXPECT_EQ(a[i].measure, b[i].measure) << where;
+    EXPECT_EQ(a[i].what, b[i].what) << where;
+    EXPECT_EQ(a[i].advice, b[i].advice) << where;
+    EXPECT_EQ(a[i].histogram.size(), b[i].histogram.size()) << where;
+  }
+}
+
+/// Interface::inspect() says what the free function says of the same input: for every scene that an interface can be made of (two
+/// surfaces may share no node, have no facet twice and none without three nodes), in all its kinds.
+TEST(Inspection, an_interface_inspects_itself) {
+  std::set<std::string> seen;
+  int refused = 0;
+  for (const Case& c : cases()) {
+    const Pair p = c.fault();
+    Options options;
+    options.gap = p.gap;
+    options.stiffness_scale = p.stiffness_scale;
+    try {
+      Interface made = p.facets[0].empty() ? Interface::nodes_to_surface(p.held, {}, Surface(p.facets[1]), options)
+                                           : Interface::two_surfaces(Surface(p.facets[0]), Surface(p.facets[1]), options);
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (!p.facets[k].empty()) made.set_surface(static_cast<int>(k), {p.stiffness[k], {}, {}});
+      }
+      HostState host;
+      host.x = p.x;
+      host.v = p.v;
+      host.mass = p.mass;
+      const auto own = made.inspect(host, p.element_step, {p.outward[0], p.outward[1]});
+      const auto free = inspect(p.input());
+      expect_same(own, free, c.code);
+      for (const Finding& f : own) seen.insert(f.code);
+      InspectionLimits strict;
+      strict.aspect_ratio = strict.size_ratio = strict.stiffness_ratio = 1.0;
+      expect_same(made.inspect(host, p.element_step, {p.outward[0], p.outward[1]}, strict), inspect(p.input(), strict), c.code);
+    } catch (const std::invalid_argument&) { ++refused; }
+  }
+  EXPECT_EQ(refused, 3);        // shared nodes, a degenerate facet, a facet twice
+  EXPECT_GE(seen.size(), 20u);  // all other codes
+}
+
+TEST(Inspection, an_interface_of_both_sides_inspects_itself) {
+  Pair p = stretched(8.0);
+  p.gap = 0.2;
+  for (Index n = 0; n < 49; ++n) p.held.push_back(n);
+  p.facets[0].clear();
+  p.stiffness[0].clear();
+  BothSidesOptions options;
+  options.gap = p.gap;
+  Interface made = Interface::both_sides(p.held, Surface(p.facets[1]), options);
+  made.set_surface(1, {p.stiffness[1], {}, {}});
+  InspectionInput input = p.input();
+  input.both_sides = true;
+  HostState host;
+  host.x = p.x;
+  EXPECT_FALSE(inspect(input).empty());
+  expect_same(made.inspect(host), inspect(input), "both sides");
+}
+
+TEST(Inspection, an_interface_refuses_spans_that_do_not_fit) {
+  const Pair p = plates();
+  const Interface made = Interface::two_surfaces(Surface(p.facets[0]), Surface(p.facets[1]), {});
+  HostState host;
+  host.x = std::span(p.x).first(p.x.size() - 1);
+  EXPECT_THROW((void)made.inspect(host), std::invalid_argument);
+  host.x = p.x;
+  EXPECT_NO_THROW((void)made.inspect(host));
+  const std::vector<Vec3> v(3);
+  host.v = v;
+  EXPECT_THROW((void)made.inspect(host), std::invalid_argument);
+  host.v = {};
+  const std::vector<std::int8_t> outward(35, 1);
+  EXPECT_THROW((void)made.inspect(host, 0.0, {outward, {}}), std::invalid_argument);
 }
 
 }  // namespace
