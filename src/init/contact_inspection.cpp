@@ -184,15 +184,6 @@ void follow_card(const model::Interface& card, double gap, std::vector<contact::
   }
 }
 
-/// Of any pair, as far as nodes and facets taken apart can tell.
-double largest_gap(const contact::BothSidesOptions& o) {
-  if (o.node_gap.empty() || o.facet_gap.empty()) return o.gap;
-  const auto largest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
-  double sum = std::min(largest(o.node_gap) + largest(o.facet_gap), o.gap_max);
-  if (!o.node_size.empty()) sum = std::min(sum, largest(o.node_size) + largest(o.facet_size));
-  return std::max(o.gap, sum);
-}
-
 /// Of nodes that no surface describes: mean size (square root of the area) of the shells and free solid faces around each; 0 without.
 std::vector<double> face_sizes(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes, std::span<const Vec3> x) {
   std::vector<double> sum(static_cast<std::size_t>(model.node_count()), 0.0);
@@ -232,7 +223,7 @@ InspectedInterface::InspectedInterface(const model::Model& model, const model::I
     surface_[1] = t7->surface;
     nodes_ = t7->nodes;
     pairs_ = both_sides_options(model, card, Profile::standard(), x);
-    gap_ = largest_gap(*pairs_);
+    gap_ = pairs_->largest_gap();
   }
   for (std::size_t k = 0; k < 2; ++k) {
     if (surface_[k] == no_index) continue;

@@ -42,7 +42,6 @@ struct RunInterface {
 /// numerics.md 7.2.5, 7.7.1) and says so: one note per interface. For a model as read, before anything is computed from its nodes.
 void settle_initial_penetrations(model::Model& model, Diagnostics& findings);
 
-
 /// Switches off facets whose elements were deleted: Idel 1 when all of them are, Idel 2 when one is or a node of the facet is left
 /// without elements; nodes without elements are let go unless Idel is negative (numerics.md 7.4.7).
 /// @param alive  tells whether an element is still active

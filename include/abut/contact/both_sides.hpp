@@ -59,6 +59,14 @@ struct BothSidesOptions {
     if (!node_size.empty()) sum = std::min(sum, node_size[node] + facet_size[facet]);
     return std::max(gap, sum);
   }
+  /// Of any pair, as far as nodes and facets taken apart can tell.
+  [[nodiscard]] double largest_gap() const {
+    if (node_gap.empty() || facet_gap.empty()) return gap;
+    const auto largest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
+    double sum = std::min(largest(node_gap) + largest(facet_gap), gap_max);
+    if (!node_size.empty() && !facet_size.empty()) sum = std::min(sum, largest(node_size) + largest(facet_size));
+    return std::max(gap, sum);
+  }
   /// K of a pair of K_m and K_s.
   [[nodiscard]] double pair_stiffness(double facet, double node) const {
     if (stiffness == Stiffness::facet) return facet;

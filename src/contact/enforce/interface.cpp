@@ -112,11 +112,13 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
                                   " facets");
     }
     input.side[k] = {recipe.side[k].facets, {}, {}, outward[k]};
-    if (facets > 0) input.side[k].stiffness = made_->surfaces[k].stiffness;
+    input.side[k].stiffness = made_->surfaces[k].stiffness;
   }
   input.side[0].nodes = recipe.nodes;
   input.both_sides = recipe.kind == Recipe::Kind::both_sides;
-  input.gap = input.both_sides ? recipe.both.gap : recipe.options.gap;
+  input.pairs = input.both_sides ? &recipe.both : nullptr;
+  input.one_pass = recipe.kind != Recipe::Kind::two_surfaces;
+  input.gap = input.both_sides ? recipe.both.largest_gap() : recipe.options.gap;
   input.stiffness_scale = recipe.options.stiffness_scale;
   input.x = host.x;
   input.v = host.v;
