@@ -144,7 +144,10 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
 
     turn_axes(body.inertia, h_minus * state.w[main]);
     if (conserving_) {
-      const double rate = largest_rate(springs, state.mass[main], body.inertia);
+      // |r|^2 about every axis, over the least inertia: shorter steps than stability asks for, because the first and last forces of rigid
+      // plates that land flat need them (EffectiveMass.*: with the frequency alone 2.7 % of the energy instead of 0.9 %).
+      const double margin = state.inertia[main] > 0.0 ? state.rotational_stiffness[main] / state.inertia[main] : 0.0;
+      const double rate = std::max(largest_rate(springs, state.mass[main], body.inertia), margin);
       state.stiffness[main] = rate * state.mass[main];
       state.rotational_stiffness[main] = rate * state.inertia[main];
       continue;

@@ -317,9 +317,10 @@ def untouched(case, folder, message, what, *more):
 
 
 def checksum(data):
-    """state::checksum of src/state/checkpoint.cpp."""
+    """state::Checksum of src/state/checkpoint.cpp: head and content, filled to whole words, and the length behind them."""
     hash_, mask = 0xCBF29CE484222325, (1 << 64) - 1
-    data += b"\0" * (-len(data) % 8)
+    content, length = data[:-8], data[-8:]
+    data = content + b"\0" * (-len(content) % 8) + length
     for (word,) in struct.iter_unpack("<Q", data):
         hash_ = ((hash_ ^ word) * 0x100000001B3) & mask
         hash_ ^= hash_ >> 32

@@ -126,8 +126,9 @@ TEST(EffectiveMass, CubeOnItsCorner) {
   const double finer = made(cube(0.6), "rigid cube on its corner", 0.6).second;
   const double finest = made(cube(0.3), "rigid cube on its corner", 0.3).second;
   EXPECT_LT(coarse, 0.1);
-  EXPECT_LT(finer, 0.4 * coarse);
-  EXPECT_LT(finest, 0.005);
+  EXPECT_LT(finer, coarse);
+  EXPECT_LT(finest, 0.1 * coarse);
+  EXPECT_LT(finest, 0.002);
 }
 
 }  // namespace

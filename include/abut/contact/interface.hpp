@@ -55,7 +55,7 @@ struct HostState {
   /// host that leaves it 0 says that its step is constant.
   double dt_bar_old = 0.0;
   /// #N or empty: entry of `mobility` for nodes that are held or belong to a rigid body, no_index for those that move freely with
-  /// their `mass`. Effective masses of pairs are made with it; `mass` stays what TYPE7's dampers take.
+  /// their `mass`. Effective masses of pairs of TYPE3 and TYPE5 are made with it. TYPE7 takes `mass` for its pairs as for its dampers.
   std::span<const Index> constrained = {};
   std::span<const Mobility> mobility = {};
 };

@@ -7,7 +7,6 @@
 #include "contact/enforce/both_sides.hpp"
 #include "contact/enforce/both_sides_pair.hpp"
 #include "contact/enforce/coefficient.hpp"
-#include "contact/enforce/effective_mass.hpp"
 #include "contact/enforce/switching.hpp"
 
 namespace abut::contact {
@@ -19,19 +18,20 @@ constexpr double exhausted = 1e-10;
 
 }  // namespace
 
-/// How the node moves relative to the facet's point under it, with the pair's inverse mass (effective_mass.hpp).
+/// How the node moves relative to the facet's point under it, with the pair's inverse mass 1/m_s + sum H_k^2/m_k.
 BothSides::Opening BothSides::opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const {
   const auto& corner = surface_.surface().local()[at(facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
+  const auto inverse = [&](std::size_t n) { return mass_of(host, n) > 0.0 ? 1.0 / mass_of(host, n) : 0.0; };
   Opening m;
   const std::size_t self = host_of(held_own_[at(node)]);
   m.velocity = host.v[self];
-  m.inverse_mass = inverse_mass_of(host, static_cast<Index>(self), c.normal);
+  m.inverse_mass = inverse(self);
   for (std::size_t i = 0; i < 4; ++i) {
     if (c.weight[i] == 0.0) continue;
     const std::size_t to = host_of(surface_own_[at(corner[i])]);
     m.velocity -= c.weight[i] * host.v[to];
-    m.inverse_mass += c.weight[i] * c.weight[i] * inverse_mass_of(host, static_cast<Index>(to), c.normal);
+    m.inverse_mass += c.weight[i] * c.weight[i] * inverse(to);
   }
   m.rate = dot(m.velocity, c.normal);
   return m;

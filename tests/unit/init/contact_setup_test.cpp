@@ -145,9 +145,10 @@ TEST(Type7Setup, initial_penetrations_are_found) {
   EXPECT_EQ(blank.finding.severity, contact::Severity::warning);
   EXPECT_EQ(blank.nodes, (std::vector<Id>{7, 8, 9, 10}));
   EXPECT_NEAR(blank.finding.measure, 1.0 / 3.0, 1e-12);
-  EXPECT_EQ(blank.finding.what,
-            "4 nodes of this side start within the gap, the deepest 33 % of it; the gap of 0.03 follows from the thickness (Gapmin is not "
-            "given)");
+  EXPECT_EQ(
+      blank.finding.what,
+      "4 nodes of this side start within the gap, the deepest 33.3 % of it; the gap of 0.03 follows from the thickness (Gapmin is not "
+      "given)");
   const ContactFinding given = found(0.021, 0);
   EXPECT_EQ(given.finding.severity, contact::Severity::note);
   EXPECT_NEAR(given.finding.measure, 0.001 / 0.021, 1e-12);
