@@ -173,13 +173,12 @@ void RigidBodies::accelerate(state::State& state, const BoundaryConditions& cond
 }
 
 Vec3 RigidBodies::response(const state::State& state, const Carrier& carrier, const Vec3& impulse) const {
-  const std::size_t node = at(carrier.node);
-  Vec3 gained = state.mass[node] > 0.0 ? carrier.translation.free_part(impulse) / state.mass[node] : Vec3{};
-  if (carrier.point != carrier.node) {
-    const Vec3 arm = state.x[at(carrier.point)] - state.x[node];
-    gained += cross(solve_free(bodies_[at(carrier.body)].inertia, cross(arm, impulse), carrier.rotation), arm);
+  if (carrier.body == no_index) {
+    const double mass = state.mass[at(carrier.node)];
+    return mass > 0.0 ? carrier.translation.free_part(impulse) / mass : Vec3{};
   }
-  return gained;
+  const Vec3& x = state.x[at(carrier.point)];
+  return answer(state, carrier.body, carrier.translation, carrier.rotation).velocity(x, x, impulse);
 }
 
 Vec3 RigidBodies::next_velocity(const state::State& state, const Carrier& carrier) const {

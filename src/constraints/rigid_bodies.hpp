@@ -97,8 +97,7 @@ class RigidBodies {
     Index point = no_index, node = no_index, body = no_index;
     BoundaryConditions::Held translation, rotation;
   };
-  /// Velocity gained by the point from an impulse p on it, to first order in the angle per step: P p / M + (J^-1 (r x p)) x r,
-  /// r from carrier to point, P and J^-1 on the free directions.
+  /// Velocity gained by the point from an impulse on it: answer(), or of a node without a body.
   [[nodiscard]] Vec3 response(const state::State& state, const Carrier& carrier, const Vec3& impulse) const;
   /// Steps 18 to 23: velocity v^(n+1/2) of the point by the accelerations of its carrier.
   [[nodiscard]] Vec3 next_velocity(const state::State& state, const Carrier& carrier) const;
@@ -111,7 +110,12 @@ class RigidBodies {
     contact::Mobility translation;
     std::array<Vec3, 3> rotation{};  ///< columns of R
     Vec3 centre;
-    [[nodiscard]] Vec3 turn(const Vec3& moment) const { return moment.x * rotation[0] + moment.y * rotation[1] + moment.z * rotation[2]; }
+    /// Velocity that the point of the body at `to` gains from an impulse at `from`, to first order in the angle per step.
+    [[nodiscard]] Vec3 velocity(const Vec3& to, const Vec3& from, const Vec3& impulse) const {
+      const Vec3 moment = cross(from - centre, impulse);
+      const Vec3 spin = moment.x * rotation[0] + moment.y * rotation[1] + moment.z * rotation[2];
+      return translation * impulse + cross(spin, to - centre);
+    }
   };
   [[nodiscard]] Answer answer(const state::State& state, Index body, const BoundaryConditions::Held& translation,
                               const BoundaryConditions::Held& rotation) const;

@@ -106,19 +106,19 @@ void ContactMobility::update_bodies(const state::State& state, const constraints
     }
     const auto& answer = answer_[at(body)];
     const Pushed& pushed = pushed_[at(body)];
-    const Vec3 r = state.x[at(node)] - answer.centre;
+    const Vec3& x = state.x[at(node)];
     const double own = stiffness[at(node)];
     const double share = own > 0.0 ? pushed.stiffness / own : 1.0;
-    const Vec3 to = own > 0.0 ? pushed.moment / pushed.stiffness : r;
+    const Vec3 to = own > 0.0 ? answer.centre + pushed.moment / pushed.stiffness : x;
     std::array<Vec3, 3> column;  // of what an impulse at the node along k does at `to`
     for (int k = 0; k < 3; ++k) {
       Vec3 unit{};
       unit[k] = 1.0;
-      column[static_cast<std::size_t>(k)] = answer.translation * unit + cross(answer.turn(cross(r, unit)), to);
+      column[static_cast<std::size_t>(k)] = answer.velocity(to, x, unit);
     }
-    const auto& [x, y, z] = column;
-    mobility_[i].a = {x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
-    for (double& a : mobility_[i].a) a *= share;
+    const auto& [a, b, c] = column;
+    mobility_[i].a = {a.x, b.y, c.z, 0.5 * (a.y + b.x), 0.5 * (b.z + c.y), 0.5 * (c.x + a.z)};
+    for (double& entry : mobility_[i].a) entry *= share;
   }
 }
 
