@@ -250,16 +250,15 @@ void Animation::begin(const cycle::Snapshot&) {
 
 void Animation::cycle(const cycle::Snapshot& now) {
   if (!now.animation_due) return;
-  if (times_.empty()) {
-    create_folder(folder_.animation_folder());
-    if (!now.model->interfaces.empty()) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*now.model));
-  }
+  if (times_.empty()) create_folder(folder_.animation_folder());
   wait_for_writer();
+  const model::Model* with_surfaces = times_.empty() && !now.model->interfaces.empty() ? now.model : nullptr;
   auto grid = std::make_unique<Grid>(now);
   grid->take(now);
   times_.push_back(now.state->times.t);
-  writer_ = std::async(std::launch::async, [this, taken = std::move(grid), times = times_]() mutable {
+  writer_ = std::async(std::launch::async, [this, with_surfaces, taken = std::move(grid), times = times_]() mutable {
               const std::unique_ptr<Grid> grid = std::move(taken);  // gone when it is written, not when the next state is asked for
+              if (with_surfaces != nullptr) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*with_surfaces));
               write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid->encoded());
               write_index(times);
             }).share();

@@ -10,8 +10,8 @@
 namespace abut::contact {
 namespace {
 
-constexpr Index group = 128;            // nodes handled together (numerics.md 7.3.1)
-constexpr double unknown_due = -1e300;  // of a group in which some node is awake
+constexpr Index group = NodeStates::group;  // nodes handled together (numerics.md 7.3.1)
+constexpr double unknown_due = -1e300;      // of a group in which some node is awake
 
 // Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
 // after birth, which begins and ends at no speed.
@@ -67,8 +67,7 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
       law_{options.rules.law == Law::stiffening ? options.gap : 0.0},
       two_passes_(!one_pass),
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
-      state_(held_nodes),
-      next_(held_nodes),
+      states_(held_nodes),
       quiet_(held_nodes, awake),
       slips_(held_nodes, 1) {}
 
@@ -102,9 +101,10 @@ void Pass::start(const Side& held, const Side& surface) {
     const PlainPoint p = project_plain(patch, x, options_.gap, options_.rules.area_ratio_projection);
     const double limit = 1.0 + starter_tolerance;
     if (std::abs(p.raw_s) > limit || std::abs(p.raw_t) > limit || p.distance - options_.gap > 0.0) continue;
-    state_[at(i)].anchored = 1;
-    state_[at(i)].anchor = {p.weight, t.facet};
-    state_[at(i)].last = state_[at(i)].anchor;
+    NodeState starter;
+    starter.anchored = 1;
+    starter.anchor = starter.last = {p.weight, t.facet};
+    states_.set(i, starter);
   }
 }
 
@@ -128,7 +128,7 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
   // A held node's distance changes by at most slack() <= skin until the next build: twice the skin covers both ends.
   const auto reach_of = [&](Index i) {
     if (!held.node_active(i)) return -1.0;
-    const NodeState& s = state_[at(i)];
+    const NodeState& s = states_.before(i);
     if (s.held == 0 || s.facet == no_index || !surface.active(s.facet)) return reach;
     // Lists are made with the usual strips; wider ones may bring a facet nearer by what they are wider.
     const double wider =
@@ -164,7 +164,7 @@ bool Pass::group_asleep(const Scene& scene, std::size_t number) const {
 
 void Pass::measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums) {
   const auto& [host, held, surface, held_loads, surface_loads] = scene;
-  next_[at(i)] = state_[at(i)];
+  states_.after(i) = states_.before(i);
   if (closest()) {
     measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
   } else {
@@ -173,7 +173,7 @@ void Pass::measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums) {
 }
 
 // Nodes in contact as well as others: those that are ordinary by the batch, the rest one by one. All sums run in the order of the nodes.
-void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, HeldBatch& batch, GroupSums& sums) {
+void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, GroupSums& sums) {
   const auto& [host, held, surface, held_loads, surface_loads] = scene;
   const Index first = static_cast<Index>(number) * group;
   const Index last = std::min(first + group, held.node_count());
@@ -182,6 +182,9 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touc
   for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
   sums.equals.clear();
   if (group_asleep(scene, number)) return;
+  NodeStates::Loan loan(states_, number, work.scratch);
+  std::array<Touch, at(group)>& touches = work.touches;
+  HeldBatch& batch = work.batch;
   constexpr int none = -1;
   const bool batches = in_batches(host);
   const Index block = batches ? HeldBatch::size : group;
@@ -193,6 +196,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touc
     batch.count = 0;
     for (Index i = begin; i < std::min(begin + block, last); ++i) {
       if (asleep(scene, i)) continue;
+      loan.wake(i);
       lane[count] = none;
       if (batches && may_be_ordinary(scene, i)) {
         lane[count] = batch.count;
@@ -212,7 +216,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touc
       Touch& touch = touches[k];
       measure(scene, i, touch, sums);
       any = any || touch.contact;
-      const bool same = ordinary && touch.contact && touch.facet == state_[at(i)].facet && touch.equals == 0;
+      const bool same = ordinary && touch.contact && touch.facet == states_.before(i).facet && touch.equals == 0;
       if (!same) lane[k] = none;
     }
     for (std::size_t k = 0; k < count; ++k) {
@@ -226,6 +230,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touc
       finish_node(host, held, surface, held_loads, i, touches[k], any, sums);
       if (!touches[k].contact) end_contact(scene, i, touches[k], any, sums);
     }
+    loan.settle(std::span(nodes).first(count));
   }
   if (!closest()) return;
   double due = 1e300;
@@ -237,8 +242,8 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touc
 
 void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums) {
   const bool anchors = options_.rules.reference_friction;
-  const NodeState& before = state_[at(i)];
-  NodeState& after = next_[at(i)];
+  const NodeState& before = states_.before(i);
+  NodeState& after = states_.after(i);
   if (touch.lost) sums.lost.push_back(scene.held.nodes()[at(i)]);
   after.held = 0;
   // The last damping force acts over half of the step that ends the contact.
@@ -289,10 +294,9 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   std::size_t added = 0;
   const auto evaluate_groups = [this, &scene, &added](std::size_t begin, std::size_t end) {
     if (begin == end) return;  // an executor may hand out empty ranges: they are nobody's first
-    std::array<Touch, at(group)> touches;
-    HeldBatch batch;
+    Work work;
     for (std::size_t g = begin; g < end; ++g) {
-      evaluate_group(scene, g, touches, batch, groups_[g]);
+      evaluate_group(scene, g, work, groups_[g]);
       // Reactions are added in the order of the groups: whoever has the first of them adds while they are in its cache.
       if (begin == 0) add_reactions(groups_[g], scene.surface, scene.surface_loads);
     }
@@ -323,50 +327,42 @@ PassTotals Pass::rest(const HostState& host, const Side& held, const Side& surfa
   PassTotals totals;
   stale_ = true;
   for (std::vector<Index>* list : {&in_contact_, &crossed_, &lost_}) list->clear();
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    const NodeState& before = state_[i];
-    next_[i] = before;
-    totals.stepped += stepped_without_facet(host, held, surface, static_cast<Index>(i));
-    if (before.tangential_stiffness > 0.0) totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
-    if (options_.rules.reference_friction) continue;  // frozen outside the window (7.3.1)
-    next_[i] = {};
-    next_[i].ignored = before.ignored;
+  NodeStates::Scratch scratch;
+  std::vector<Index> nodes;
+  for (std::size_t g = 0; g * at(group) < states_.size(); ++g) {
+    NodeStates::Loan loan(states_, g, scratch);
+    nodes.clear();
+    for (auto i = static_cast<Index>(g) * group; i < std::min((static_cast<Index>(g) + 1) * group, held.node_count()); ++i) {
+      loan.wake(i);
+      nodes.push_back(i);
+      const NodeState& before = states_.before(i);
+      NodeState& after = states_.after(i);
+      after = before;
+      totals.stepped += stepped_without_facet(host, held, surface, i);
+      if (before.tangential_stiffness > 0.0) totals.dissipated += 0.5 * squared_norm(before.friction) / before.tangential_stiffness;
+      if (options_.rules.reference_friction) continue;  // frozen outside the window (7.3.1)
+      after = {};
+      after.ignored = before.ignored;
+    }
+    loan.settle(nodes);
   }
   return totals;
 }
 
 void Pass::commit() {
-  state_.swap(next_);
+  states_.commit();
   committed_ = true;
 }
 
-namespace {
-
-/// What most nodes remember takes a byte of the history: nothing, or that they were seen in front.
-enum class Remembered : std::uint8_t { nothing, seen_in_front, all };
-
-NodeState plain_state(Remembered r) {
-  NodeState state;
-  state.in_front = r == Remembered::seen_in_front ? 1 : 0;
-  return state;
-}
-
-Remembered remembered(const NodeState& state) {
-  for (const Remembered r : {Remembered::nothing, Remembered::seen_in_front}) {
-    const NodeState plain = plain_state(r);
-    if (std::memcmp(&state, &plain, sizeof plain) == 0) return r;
-  }
-  return Remembered::all;
-}
-
-}  // namespace
-
 void Pass::save(HistoryWriter& out) const {
-  const auto full = std::count_if(state_.begin(), state_.end(), [](const NodeState& s) { return remembered(s) == Remembered::all; });
-  out.reserve(state_.size() + static_cast<std::size_t>(full) * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) +
+  const auto nodes = static_cast<Index>(states_.size());
+  std::size_t full = 0;
+  for (Index i = 0; i < nodes; ++i) full += remembered(states_.before(i)) == Remembered::all ? 1 : 0;
+  out.reserve(states_.size() + full * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) +
               tracked_.size() * sizeof(Tracked) + 64);
-  out.put(static_cast<std::uint64_t>(state_.size()));
-  for (const NodeState& state : state_) {
+  out.put(static_cast<std::uint64_t>(states_.size()));
+  for (Index i = 0; i < nodes; ++i) {
+    const NodeState& state = states_.before(i);
     const Remembered r = remembered(state);
     out.put(r);
     if (r == Remembered::all) out.put(state);
@@ -380,14 +376,15 @@ void Pass::save(HistoryWriter& out) const {
 }
 
 void Pass::load(HistoryReader& in) {
-  if (in.next<std::uint64_t>() != state_.size()) in.refuse("was made for another interface");
-  for (NodeState& state : state_) {
+  const auto nodes = static_cast<Index>(states_.size());
+  if (in.next<std::uint64_t>() != states_.size()) in.refuse("was made for another interface");
+  for (Index i = 0; i < nodes; ++i) {
     const auto r = in.next<Remembered>();
     if (r > Remembered::all) in.refuse("is damaged: it has a node that remembers what does not exist");
-    state = plain_state(r);
+    NodeState state = plain_state(r);
     if (r == Remembered::all) in.get(state);
+    states_.set(i, state);
   }
-  next_ = state_;
   std::uint64_t facets = 0;
   in.get(facets);
   started_ = facets > 0;
@@ -398,7 +395,7 @@ void Pass::load(HistoryReader& in) {
   limit_depths();
   in.get(size_);
   in.get(settled_);
-  tracked_.resize(started_ ? state_.size() : 0);
+  tracked_.resize(started_ ? states_.size() : 0);
   for (Tracked& t : tracked_) in.get(t);
   stale_ = true;
 }

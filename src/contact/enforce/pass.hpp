@@ -10,6 +10,7 @@
 #include "contact/enforce/held_kernel.hpp"
 #include "contact/enforce/history.hpp"
 #include "contact/enforce/law.hpp"
+#include "contact/enforce/node_states.hpp"
 #include "contact/enforce/pair.hpp"
 #include "contact/search/candidates.hpp"
 #include "contact/search/incremental.hpp"
@@ -38,40 +39,6 @@ struct SideLoads {
   void resize(std::size_t nodes);
   /// Those of nodes begin to end - 1.
   void clear(std::size_t begin, std::size_t end);
-};
-
-/// A material point of the surface.
-struct SurfacePoint {
-  std::array<double, 4> weight{};
-  std::int64_t facet = no_index;
-};
-
-/// What a held node remembers from step to step (no padding: it is written to the history as it is).
-struct NodeState {
-  Vec3 normal;          ///< direction of the last contact
-  Vec3 slip;            ///< return mapping: elastic slip in the anchor's facet frame; anchors: F0
-  Vec3 slip_normal;     ///< return mapping: contact normal in the same frame
-  Vec3 push;            ///< normal force of the last step with what a varying stiffness adds to it, without damping
-  Vec3 friction;        ///< friction force of the last step, as it acted on the surface
-  SurfacePoint anchor;  ///< return mapping: last contact point; anchors: where F0 acted
-  double tangential_stiffness = 0.0;
-  double rate = 0.0;          ///< speed of opening in the last step
-  double acceleration = 0.0;  ///< that the contact force gave to the opening
-  double force = 0.0;         ///< normal force of the last step, without damping
-  double stored = 0.0;        ///< energy that it held
-  double made = 0.0;          ///< account of the pair (account.hpp): energy made since it began
-  std::int32_t facet = no_index;
-  std::uint8_t held = 0;     ///< 1: came over a border; 2: came through the front, its strips widen with its depth
-  std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
-  std::uint8_t anchored = 0;
-  std::uint8_t in_front = 0;  ///< was measured in front of a facet
-  std::uint8_t reckoned = 0;  ///< `made` counts
-  std::uint8_t light = 0;     ///< its steps were once long for its stiffness
-  std::array<std::uint8_t, 6> unused{};
-  double offset = 0.0;   ///< the gap of this node is smaller by this (initial penetration)
-  double damping = 0.0;  ///< damping force of the last step
-  Vec3 filtered;         ///< with a filter: filtered trial friction; return mapping: as a slip in the anchor's facet frame
-  SurfacePoint last;     ///< anchors and accounts: last contact point
 };
 
 struct PassTotals {
@@ -164,6 +131,12 @@ class Pass {
     SideLoads& held_loads;
     SideLoads& surface_loads;
   };
+  // What a thread needs for a group.
+  struct Work {
+    std::array<Touch, NodeStates::group> touches;
+    NodeStates::Scratch scratch;
+    HeldBatch batch;
+  };
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
   enum Quiet : std::uint8_t { awake, in_front, nothing_listed };
   struct Kinematics {
@@ -177,13 +150,13 @@ class Pass {
   bool half_of_facet_ = false;
   bool stale_ = true;
   bool started_ = false;
-  bool committed_ = false;  ///< state_ is of this step, not next_
+  bool committed_ = false;  ///< the states before are of this step, not those after
   bool settled_ = false;    ///< initial penetrations are dealt with
   double keep_ = 1.0;       ///< share of every node's offset that the gradual start leaves in this step
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
   std::vector<double> depth_;     ///< per facet: how far behind a node is still met
   std::vector<double> widening_;  ///< per facet: 1 / its length at the start
-  std::vector<NodeState> state_, next_;
+  NodeStates states_;
   std::vector<Tracked> tracked_;
   std::vector<Index> in_contact_, crossed_, lost_;
   std::vector<GroupSums> groups_;
@@ -222,7 +195,7 @@ class Pass {
   [[nodiscard]] double strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
                                    const Kinematics& motion) const;
   void limit_depths();
-  [[nodiscard]] const NodeState& now(Index i) const { return (committed_ ? state_ : next_)[at(i)]; }
+  [[nodiscard]] const NodeState& now(Index i) const { return committed_ ? states_.before(i) : states_.after(i); }
   /// Signed distance of a held node to the other side, whatever it touches; NaN when nothing is near.
   [[nodiscard]] double distance_to(const Side& held, const Side& surface, Index i) const;
   /// True while the node cannot touch, now or in the coming step.
@@ -234,7 +207,7 @@ class Pass {
   [[nodiscard]] double clearance(double due) const {
     return 0.25 * std::min(smallest_depth_, due - candidates_.clock() - options_.gap) - surface_step_;
   }
-  void evaluate_group(const Scene& scene, std::size_t number, std::span<Touch> touches, HeldBatch& batch, GroupSums& sums);
+  void evaluate_group(const Scene& scene, std::size_t number, Work& work, GroupSums& sums);
   void measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums);
   void end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums);
   /// True where every ordinary held node goes through held_kernel().

@@ -58,7 +58,7 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
 }
 
 double Pass::stepped_without_facet(const HostState& host, const Side& held, const Side& surface, Index i) const {
-  const NodeState& before = state_[at(i)];
+  const NodeState& before = states_.before(i);
   if (before.held == 0 || before.reckoned == 0 || host.dt <= 0.0) return 0.0;
   const double rate = dot(velocity_over(host, held, surface, i, before.last), before.normal);
   return made_by_changing_step(before.force, step_before(host.dt, host.dt_bar_old), host.dt, before.rate, rate);
@@ -92,7 +92,7 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   if (norm(r - distance * n) > way) return 0.0;
   // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
   const double reach = std::max(options_.gap, largest_depth_);
-  if (norm(r) > (state_[at(i)].in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
+  if (norm(r) > (states_.before(i).in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
   const double width = (1.0 - border_flat) * border_strip * side;
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);
@@ -106,8 +106,8 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
 void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                        GroupSums& sums) {
   PassTotals& totals = sums.totals;
-  const NodeState& before = state_[at(i)];
-  NodeState& after = next_[at(i)];
+  const NodeState& before = states_.before(i);
+  NodeState& after = states_.after(i);
   const Rules& rules = options_.rules;
   if (!touch.known) {
     totals.stepped += stepped_without_facet(host, held, surface, i);

@@ -35,7 +35,7 @@ HeldRules Pass::held_rules(const HostState& host) const {
 }
 
 bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
-  const NodeState& before = state_[at(i)];
+  const NodeState& before = states_.before(i);
   if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0) return false;
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
@@ -49,7 +49,7 @@ bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
 }
 
 void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
-  const NodeState& before = state_[at(i)];
+  const NodeState& before = states_.before(i);
   const auto k = static_cast<std::size_t>(batch.count++);
   const Side& surface = scene.surface;
   const std::array<Index, 4>& corner = surface.surface().local()[at(before.facet)];
@@ -119,7 +119,7 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
 
 bool Pass::alone(const HeldBatch& batch, int lane, Index i) const {
   const Candidates::Others& others = candidates_.others(i);
-  const NodeState& before = state_[at(i)];
+  const NodeState& before = states_.before(i);
   if (others.facet != before.facet || (before.held == 2 && !others.wide)) return false;
   // Beyond what counts as equally near, with room for the rounding of the clock.
   const double reach = (others.due - candidates_.clock()) * (1.0 - 2.0 * equally_near);
@@ -129,8 +129,8 @@ bool Pass::alone(const HeldBatch& batch, int lane, Index i) const {
 void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {
   const auto k = static_cast<std::size_t>(lane);
   const auto get = [k](const double(&from)[3][HeldBatch::size]) { return Vec3{from[0][k], from[1][k], from[2][k]}; };
-  const NodeState& before = state_[at(i)];
-  NodeState& after = next_[at(i)];
+  const NodeState& before = states_.before(i);
+  NodeState& after = states_.after(i);
   PassTotals& totals = sums.totals;
   SideLoads& loads = scene.held_loads;
   const Index node = scene.held.nodes()[at(i)];

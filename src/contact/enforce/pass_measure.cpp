@@ -55,8 +55,8 @@ Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& 
 
 void Pass::measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                            const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums) {
-  const NodeState& before = state_[at(i)];
-  NodeState& after = next_[at(i)];
+  const NodeState& before = states_.before(i);
+  NodeState& after = states_.after(i);
   touch = {};
   if (!held.node_active(i)) return;
   const Vec3 x = held.x()[at(i)];
@@ -215,12 +215,12 @@ void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& 
   touch.point = p.point;
   touch.normal = p.normal;
   touch.distance = p.distance;
-  const double penetration = gap_of(p.distance, next_[at(i)]) - p.distance;
+  const double penetration = gap_of(p.distance, states_.after(i)) - p.distance;
   touch.penetration = penetration;
   PairForce& pair = touch.pair;
   pair.stiffness = plain_stiffness(held, surface, i, t.facet);
   if (penetration <= 0.0) return;
-  const bool too_deep = !options_.rules.unlimited_depth && state_[at(i)].held == 0 && -p.distance > depth_[at(t.facet)];
+  const bool too_deep = !options_.rules.unlimited_depth && states_.before(i).held == 0 && -p.distance > depth_[at(t.facet)];
   if (too_deep) return;
   pair.magnitude = pair.stiffness * law_.force(penetration);
   pair.potential = pair.stiffness * law_.potential(penetration);

@@ -10,17 +10,35 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// Edge of a facet with its end nodes in ascending order: equal for the two facets that share it.
+// Two node numbers as one: orders as the pair does, in one comparison.
+std::uint64_t pair_key(Index a, Index b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b); }
+
+// Edge of a facet; the key of its end nodes, in ascending order, is equal for the two facets that share it.
 struct Edge {
-  Index low, high, facet;
+  std::uint64_t nodes;
+  Index facet;
   int number;
-  [[nodiscard]] bool same_place(const Edge& b) const { return low == b.low && high == b.high; }
 };
 
-std::array<Index, 4> sorted_nodes(const std::array<Index, 4>& node) {
-  std::array<Index, 4> sorted = node;
-  std::sort(sorted.begin(), sorted.end());
-  return sorted;
+// Nodes of a facet in ascending order, and the facet.
+struct FacetKey {
+  std::array<std::uint64_t, 2> nodes;
+  Index facet;
+};
+
+std::vector<FacetKey> sorted_keys(std::span<const std::array<Index, 4>> facets) {
+  std::vector<FacetKey> keys;
+  keys.reserve(facets.size());
+  for (std::array<Index, 4> n : facets) {
+    std::sort(n.begin(), n.end());
+    keys.push_back({{pair_key(n[0], n[1]), pair_key(n[2], n[3])}, static_cast<Index>(keys.size())});
+  }
+  std::sort(keys.begin(), keys.end(), [](const FacetKey& a, const FacetKey& b) {
+    if (a.nodes[0] != b.nodes[0]) return a.nodes[0] < b.nodes[0];
+    if (a.nodes[1] != b.nodes[1]) return a.nodes[1] < b.nodes[1];
+    return a.facet < b.facet;
+  });
+  return keys;
 }
 
 void check_facet(const Facet& facet, std::size_t number) {
@@ -66,11 +84,11 @@ void Surface::connect() {
     for (std::size_t i = 0; i < 4; ++i) local_[f][i] = find(facets_[f].node[i]);
   }
 
-  std::vector<Index> order = canonical_order();
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    if (sorted_nodes(local_[at(order[k])]) == sorted_nodes(local_[at(order[k - 1])])) {
-      throw std::invalid_argument("contact surface: facet " + std::to_string(std::max(order[k - 1], order[k])) + " is facet " +
-                                  std::to_string(std::min(order[k - 1], order[k])) + " again");
+  const std::vector<FacetKey> keys = sorted_keys(local_);
+  for (std::size_t k = 1; k < keys.size(); ++k) {
+    if (keys[k].nodes == keys[k - 1].nodes) {
+      throw std::invalid_argument("contact surface: facet " + std::to_string(keys[k].facet) + " is facet " +
+                                  std::to_string(keys[k - 1].facet) + " again");
     }
   }
 
@@ -89,18 +107,17 @@ void Surface::connect() {
       const Index a = local_[f][static_cast<std::size_t>(i)];
       const Index b = local_[f][static_cast<std::size_t>((i + 1) % corners)];
       at_facet_[at(next[at(a)]++)] = static_cast<Index>(f);
-      edges.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(f), i});
+      edges.push_back({pair_key(std::min(a, b), std::max(a, b)), static_cast<Index>(f), i});
     }
   }
 
   neighbours_.assign(facets_.size(), {no_index, no_index, no_index, no_index});
   borders_.assign(facets_.size(), 0);
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::array{a.low, a.high, a.facet} < std::array{b.low, b.high, b.facet};
-  });
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.facet < b.facet; });
   for (std::size_t first = 0; first < edges.size();) {
     std::size_t last = first + 1;
-    while (last < edges.size() && edges[last].same_place(edges[first])) ++last;
+    while (last < edges.size() && edges[last].nodes == edges[first].nodes) ++last;
     const Edge& a = edges[first];
     if (last - first == 1) {
       borders_[at(a.facet)] = static_cast<std::uint8_t>(borders_[at(a.facet)] | (1u << a.number));
@@ -124,10 +141,9 @@ Index Surface::find(Index host_node) const {
 }
 
 std::vector<Index> Surface::canonical_order() const {
-  std::vector<Index> order(facets_.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [this](Index a, Index b) { return std::pair(sorted_nodes(local_[at(a)]), a) < std::pair(sorted_nodes(local_[at(b)]), b); });
+  std::vector<Index> order;
+  order.reserve(facets_.size());
+  for (const FacetKey& key : sorted_keys(local_)) order.push_back(key.facet);
   return order;
 }
 
