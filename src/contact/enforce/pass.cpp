@@ -143,11 +143,11 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
   surface_step_ = motion.surface;
 }
 
-bool Pass::asleep(const Scene& scene, Index i) const {
+bool Pass::asleep(const Scene& scene, Index i) {
   const std::uint8_t quiet = quiet_[at(i)];
   if (quiet == awake || scene.host.dt <= 0.0) return false;
   if (quiet == nothing_listed && !candidates_.of(i).empty()) return false;
-  return far(scene.host, scene.held, scene.held_loads, i);
+  return far(scene.host, scene.held, scene.surface, scene.held_loads, i);
 }
 
 bool Pass::group_asleep(const Scene& scene, std::size_t number) const {

@@ -137,6 +137,10 @@ class Pass {
     NodeStates::Scratch scratch;
     HeldBatch batch;
   };
+  // A node that comes nearer by less than this share of its way to the gap in a step is not looked at. What is said of others, that a
+  // step may bring into contact, must not depend on how old the lists are: it is said of nodes that come nearer than that.
+  static constexpr double passed_over = 0.4;
+  static_assert(1.5 * step_growth * passed_over < 1.0 && 0.5 / passed_over > step_growth);
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
   enum Quiet : std::uint8_t { awake, in_front, nothing_listed };
   struct Kinematics {
@@ -199,13 +203,13 @@ class Pass {
   /// Signed distance of a held node to the other side, whatever it touches; NaN when nothing is near.
   [[nodiscard]] double distance_to(const Side& held, const Side& surface, Index i) const;
   /// True while the node cannot touch, now or in the coming step.
-  [[nodiscard]] bool far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const;
-  [[nodiscard]] bool asleep(const Scene& scene, Index i) const;
+  [[nodiscard]] bool far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i);
+  [[nodiscard]] bool asleep(const Scene& scene, Index i);
   /// The same for all nodes of a group at once, or false.
   [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
   /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
   [[nodiscard]] double clearance(double due) const {
-    return 0.25 * std::min(smallest_depth_, due - candidates_.clock() - options_.gap) - surface_step_;
+    return passed_over * std::min(smallest_depth_, due - candidates_.clock() - options_.gap) - surface_step_;
   }
   void evaluate_group(const Scene& scene, std::size_t number, Work& work, GroupSums& sums);
   void measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums);

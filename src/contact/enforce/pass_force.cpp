@@ -118,9 +118,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
   const double pair_inverse_mass = touch.contact || options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch) : 0.0;
-  // What is said of nodes that are not in contact must not depend on how old the lists are: a node that far() passes over closes in by
-  // less than a quarter of its way to the gap in a step. Here: only nodes that come nearer than that.
-  if (options_.gap > 0.0 && -motion.rate * host.dt >= -0.25 * penetration) {
+  if (options_.gap > 0.0 && -motion.rate * host.dt >= -passed_over * penetration) {
     totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
   }
   // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
@@ -167,7 +165,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     }
     if (law_.stiffens() && closing > 0.0) {
       const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);
-      const bool soon = host.dt <= 0.0 || 0.5 * room < 2.0 * host.dt * closing;
+      const double horizon = touch.contact ? 2.0 : 0.5 / passed_over;
+      const bool soon = host.dt <= 0.0 || 0.5 * room < horizon * host.dt * closing;
       if (soon && 0.5 * room / closing < totals.kinematic_step) {
         totals.kinematic_step = 0.5 * room / closing;
         totals.kinematic_node = held.nodes()[at(i)];

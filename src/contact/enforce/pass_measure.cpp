@@ -19,15 +19,41 @@ Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   return patch;
 }
 
+/// A point in front of the facet's mean plane is at least this far from the facet, which lies within the hull of its corners.
+double height_over(const Patch& patch, const Vec3& x) {
+  const Vec3 n = normalized(cross(patch.x[2] - patch.x[0], patch.x[3] - patch.x[1]));
+  double least = 1e300;
+  for (const Vec3& corner : patch.x) least = std::min(least, dot(n, x - corner));
+  return least;
+}
+
 }  // namespace
 
-bool Pass::far(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
-  // Neither the motion of the last step nor that of the coming one may come near a quarter of the way.
-  const double clear = clearance(candidates_.nearest_due(i));
-  if (clear <= 0.0) return false;
+bool Pass::far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i) {
+  // Neither the motion of the last step nor that of the coming one may come near the share of the way that may be passed over.
   const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
   const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;
-  return std::max(squared_norm(last), squared_norm(coming)) < clear * clear;
+  const double motion = std::max(squared_norm(last), squared_norm(coming));
+  const auto clears = [this, motion](double due) {
+    const double clear = clearance(due);
+    return clear > 0.0 && motion < clear * clear;
+  };
+  if (clears(candidates_.nearest_due(i))) return true;
+  if (!clears(1e300)) return false;
+  // The clock counts the largest motion of all nodes: look how far the planes of the facets are that it says may be near.
+  const Vec3 x = held.x()[at(i)];
+  double due = 1e300;
+  for (Candidates::Entry& entry : candidates_.of(i)) {
+    if (!surface.active(entry.facet)) continue;
+    if (!clears(entry.due)) {
+      if (surface.borders(entry.facet) != 0) return false;
+      entry.due = std::max(entry.due, height_over(surface.patch(entry.facet), x) + candidates_.clock());
+      if (!clears(entry.due)) return false;
+    }
+    due = std::min(due, entry.due);
+  }
+  candidates_.set_nearest_due(i, due);
+  return true;
 }
 
 Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
@@ -62,7 +88,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   const Vec3 x = held.x()[at(i)];
   const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
   if (before.in_front != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
-    if (far(host, held, held_loads, i)) {
+    if (far(host, held, surface, held_loads, i)) {
       touch.far = true;
       after.offset = 0.0;
       return;
