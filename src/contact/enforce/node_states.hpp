@@ -37,7 +37,7 @@ struct NodeState {
   std::uint8_t held = 0;     ///< 1: came over a border; 2: came through the front, its strips widen with its depth
   std::uint8_t ignored = 0;  ///< lies behind and came from behind: not met until it is seen in front
   std::uint8_t anchored = 0;
-  std::uint8_t in_front = 0;  ///< was measured in front of a facet
+  std::uint8_t in_front = 0;  ///< was in front of a facet when it was last in contact or about to be
   std::uint8_t reckoned = 0;  ///< `made` counts
   std::uint8_t light = 0;     ///< its steps were once long for its stiffness
   std::array<std::uint8_t, 6> unused{};

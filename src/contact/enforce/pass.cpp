@@ -68,6 +68,7 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
       two_passes_(!one_pass),
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       states_(held_nodes),
+      in_front_(held_nodes, 0),
       quiet_(held_nodes, awake),
       slips_(held_nodes, 1) {}
 
@@ -122,18 +123,20 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
     incremental_.update(held, surface, tracked_, options_.gap);
     return;
   }
-  if (stale_) std::fill(quiet_.begin(), quiet_.end(), std::uint8_t{awake});
+  if (stale_) {
+    std::fill(in_front_.begin(), in_front_.end(), std::uint8_t{0});
+    std::fill(quiet_.begin(), quiet_.end(), std::uint8_t{awake});
+  }
   skin_ = 0.25 * size_;
-  const double reach = std::max(options_.gap, largest_depth_);
   // A held node's distance changes by at most slack() <= skin until the next build: twice the skin covers both ends.
   const auto reach_of = [&](Index i) {
     if (!held.node_active(i)) return -1.0;
     const NodeState& s = states_.before(i);
-    if (s.held == 0 || s.facet == no_index || !surface.active(s.facet)) return reach;
+    if (s.held == 0 || s.facet == no_index || !surface.active(s.facet)) return reach();
     // Lists are made with the usual strips; wider ones may bring a facet nearer by what they are wider.
     const double wider =
         s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
-    return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
+    return std::max(reach(), std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
   };
   const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_, executor_);
   if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);
@@ -270,7 +273,7 @@ void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any
   if (!closest()) return;
   const bool nothing = candidates_.of(i).empty();
   if ((touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
-    quiet_[at(i)] = nothing ? nothing_listed : in_front;
+    quiet_[at(i)] = nothing ? nothing_listed : out_of_reach;
   }
 }
 
@@ -358,8 +361,7 @@ void Pass::save(HistoryWriter& out) const {
   const auto nodes = static_cast<Index>(states_.size());
   std::size_t full = 0;
   for (Index i = 0; i < nodes; ++i) full += remembered(states_.before(i)) == Remembered::all ? 1 : 0;
-  out.reserve(states_.size() + full * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) +
-              tracked_.size() * sizeof(Tracked) + 64);
+  out.reserve(states_.size() + full * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) + tracked_.size() * sizeof(Tracked) + 64);
   out.put(static_cast<std::uint64_t>(states_.size()));
   for (Index i = 0; i < nodes; ++i) {
     const NodeState& state = states_.before(i);

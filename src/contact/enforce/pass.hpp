@@ -90,8 +90,9 @@ class Pass {
     bool contact = false;
     bool fresh_hit = false;
     bool widens = false;
-    bool lost = false;  ///< was held, and is now beyond the end of a free border, or went through and over it in one step
-    bool far = false;   ///< cannot touch now or in the coming step: not measured
+    bool lost = false;          ///< was held, and is now beyond the end of a free border, or went through and over it in one step
+    bool was_in_front = false;  ///< at the last measurement
+    bool far = false;           ///< cannot touch now or in the coming step: not measured
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;
@@ -140,9 +141,10 @@ class Pass {
   // A node that comes nearer by less than this share of its way to the gap in a step is not looked at. What is said of others, that a
   // step may bring into contact, must not depend on how old the lists are: it is said of nodes that come nearer than that.
   static constexpr double passed_over = 0.4;
+  static constexpr double flight_share = 0.1;  // of a facet: nodes that fly further in a step look ahead on their own
   static_assert(1.5 * step_growth * passed_over < 1.0 && 0.5 / passed_over > step_growth);
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
-  enum Quiet : std::uint8_t { awake, in_front, nothing_listed };
+  enum Quiet : std::uint8_t { awake, out_of_reach, nothing_listed };
   struct Kinematics {
     double rate = 0.0;  ///< of opening, n.(v - v_point)
     Vec3 tangential_velocity;
@@ -164,7 +166,9 @@ class Pass {
   std::vector<Tracked> tracked_;
   std::vector<Index> in_contact_, crossed_, lost_;
   std::vector<GroupSums> groups_;
-  std::vector<std::uint8_t> quiet_;  ///< Quiet of every held node
+  // Of every held node, no history: the last measurement found it in front (unlike NodeState::in_front even where only the age of the
+  // lists says whether it is measured); Quiet.
+  std::vector<std::uint8_t> in_front_, quiet_;
   std::vector<std::uint8_t> slips_;  ///< of every held node in contact: its friction is at its limit (output only, no history)
   Executor executor_;
   Candidates candidates_;
@@ -205,6 +209,17 @@ class Pass {
   /// True while the node cannot touch, now or in the coming step.
   [[nodiscard]] bool far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i);
   [[nodiscard]] bool asleep(const Scene& scene, Index i);
+  /// Larger of the squares of a node's motions in the last and in the coming step, relative to the surface's mean.
+  [[nodiscard]] double squared_motion(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const;
+  /// Neither motion comes near the share of the way that may be passed over, when the nearest facet is due at `due`.
+  [[nodiscard]] bool clears(double squared_motion, double due) const {
+    const double clear = clearance(due);
+    return clear > 0.0 && squared_motion < clear * clear;
+  }
+  /// Measured at this distance, whatever the age of the lists.
+  [[nodiscard]] bool near(const HostState& host, const Side& held, const SideLoads& held_loads, Index i, double distance) const;
+  /// Distance within which lists have every facet: where contact is, and where it may begin in the coming step.
+  [[nodiscard]] double reach() const { return std::max(options_.gap, largest_depth_) + flight_share * size_; }
   /// The same for all nodes of a group at once, or false.
   [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
   /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.

@@ -42,7 +42,7 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   const Index node = held.nodes()[at(i)];
   const Vec3 v = host.v[at(node)] - (host.dt > 0.0 ? mean_step_ / host.dt : Vec3{});
   const Vec3 flight = (1.5 * step_growth * host.dt) * v;
-  if (norm(flight) + 2.0 * surface_step_ <= std::max(options_.gap, smallest_depth_)) return;
+  if (norm(flight) + 2.0 * surface_step_ <= reach() - options_.gap) return;
   Bounds path;
   path.include(held.x()[at(i)]);
   path.include(held.x()[at(i)] + flight);
@@ -91,8 +91,7 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   const double way = 1.5 * step_growth * host.dt * speed;
   if (norm(r - distance * n) > way) return 0.0;
   // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
-  const double reach = std::max(options_.gap, largest_depth_);
-  if (norm(r) > (states_.before(i).in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
+  if (norm(r) > (touch.was_in_front ? std::min(reach(), options_.gap + way) : reach())) return 0.0;
   const double width = (1.0 - border_flat) * border_strip * side;
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);

@@ -29,31 +29,36 @@ double height_over(const Patch& patch, const Vec3& x) {
 
 }  // namespace
 
-bool Pass::far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i) {
-  // Neither the motion of the last step nor that of the coming one may come near the share of the way that may be passed over.
+double Pass::squared_motion(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
   const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
   const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;
-  const double motion = std::max(squared_norm(last), squared_norm(coming));
-  const auto clears = [this, motion](double due) {
-    const double clear = clearance(due);
-    return clear > 0.0 && motion < clear * clear;
-  };
-  if (clears(candidates_.nearest_due(i))) return true;
-  if (!clears(1e300)) return false;
+  return std::max(squared_norm(last), squared_norm(coming));
+}
+
+bool Pass::far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i) {
+  const double motion = squared_motion(host, held, held_loads, i);
+  if (clears(motion, candidates_.nearest_due(i))) return true;
+  if (!clears(motion, 1e300)) return false;
   // The clock counts the largest motion of all nodes: look how far the planes of the facets are that it says may be near.
   const Vec3 x = held.x()[at(i)];
   double due = 1e300;
   for (Candidates::Entry& entry : candidates_.of(i)) {
     if (!surface.active(entry.facet)) continue;
-    if (!clears(entry.due)) {
+    if (!clears(motion, entry.due)) {
       if (surface.borders(entry.facet) != 0) return false;
       entry.due = std::max(entry.due, height_over(surface.patch(entry.facet), x) + candidates_.clock());
-      if (!clears(entry.due)) return false;
+      if (!clears(motion, entry.due)) return false;
     }
     due = std::min(due, entry.due);
   }
   candidates_.set_nearest_due(i, due);
   return true;
+}
+
+bool Pass::near(const HostState& host, const Side& held, const SideLoads& held_loads, Index i, double distance) const {
+  constexpr double rounding = 1.0 + 1e-9;  // of the clock: nobody is near whom far() passed over
+  return std::abs(distance) <= reach() &&
+         !clears(squared_motion(host, held, held_loads, i), rounding * std::abs(distance) + candidates_.clock());
 }
 
 Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
@@ -87,7 +92,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   if (!held.node_active(i)) return;
   const Vec3 x = held.x()[at(i)];
   const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
-  if (before.in_front != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
+  if (in_front_[at(i)] != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
     if (far(host, held, surface, held_loads, i)) {
       touch.far = true;
       after.offset = 0.0;
@@ -109,7 +114,12 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   };
   bool meets = false;
   double gap = options_.gap;
-  after.in_front = m.found() && !m.closest.beyond && m.distance >= 0.0 ? 1 : 0;
+  const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;
+  touch.was_in_front = in_front_[at(i)] != 0;
+  in_front_[at(i)] = in_front ? 1 : 0;
+  // What is said and remembered must not depend on how old the lists are: it is of facets that every list has.
+  if (was_held || (m.found() && near(host, held, held_loads, i, m.distance))) after.in_front = in_front ? 1 : 0;
+  if (!was_held && std::abs(m.distance) > reach()) m = {};
   if (m.found()) {
     take(m);
     gap = gap_of(m.distance, after);
@@ -149,7 +159,10 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   if (!touch.known) return;
   touch.penetration = gap - m.distance;
   // A node that was in front, that the swept test caught, or that touches at the start comes through the front.
-  if (!was_held) touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_;
+  if (!was_held) {
+    touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_ ||
+                   (meets && m.distance - host.dt * kinematics(host, held, surface, i, touch).rate > gap);
+  }
   touch.pair_open = !meets && !was_held;
   if (touch.pair_open) {
     touch.measure = m;

@@ -5,12 +5,34 @@
 
 namespace abut::contact {
 
-void BoxTree::build(const std::vector<Bounds>& boxes) {
-  boxes_ = boxes;
-  items_.resize(boxes.size());
+void BoxTree::update() {
+  constexpr double worse = 1.3;
+  if (items_.size() == boxes_.size() && refit() <= worse * size_) return;
+  items_.resize(boxes_.size());
   std::iota(items_.begin(), items_.end(), 0);
   nodes_.clear();
-  if (!boxes.empty()) split(0, static_cast<Index>(boxes.size()));
+  if (!boxes_.empty()) split(0, static_cast<Index>(boxes_.size()));
+  size_ = refit();
+}
+
+double BoxTree::refit() {
+  double sum = 0.0;
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
+    Node& node = nodes_[n];
+    Bounds bounds;
+    if (node.count > 0) {
+      for (Index k = node.first; k < node.first + node.count; ++k) {
+        bounds.include(boxes_[static_cast<std::size_t>(items_[static_cast<std::size_t>(k)])]);
+      }
+    } else {
+      bounds = nodes_[static_cast<std::size_t>(node.first)].bounds;
+      bounds.include(nodes_[static_cast<std::size_t>(node.second)].bounds);
+    }
+    node.bounds = bounds;
+    const Vec3 side = bounds.high - bounds.low;
+    sum += side.x * side.y + side.y * side.z + side.z * side.x;
+  }
+  return sum;
 }
 
 Index BoxTree::split(Index first, Index last) {
@@ -24,7 +46,6 @@ Index BoxTree::split(Index first, Index last) {
   };
   for (Index k = first; k < last; ++k) {
     const Index i = items_[static_cast<std::size_t>(k)];
-    node.bounds.include(boxes_[static_cast<std::size_t>(i)]);
     centres.include(centre(i));
   }
   constexpr Index leaf = 8;

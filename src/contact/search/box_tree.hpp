@@ -34,8 +34,11 @@ struct Bounds {
 
 class BoxTree {
  public:
-  /// Median splits along the widest side, leaves of at most eight boxes.
-  void build(const std::vector<Bounds>& boxes);
+  /// The boxes, to be set before update().
+  [[nodiscard]] std::vector<Bounds>& boxes() { return boxes_; }
+  /// Makes the tree of boxes(): median splits along the widest side, leaves of at most eight boxes. Where the boxes of the last time have
+  /// only moved, its nodes get new bounds, as long as these are not much larger.
+  void update();
 
   /// Calls visit(i) for every box i that meets `query`.
   template <class Visit>
@@ -69,8 +72,11 @@ class BoxTree {
   std::vector<Node> nodes_;
   std::vector<Index> items_;
   std::vector<Bounds> boxes_;
+  double size_ = 0.0;  ///< sum of the nodes' surfaces when they were last split
 
   Index split(Index first, Index last);
+  /// Gives the nodes new bounds. @return sum of their surfaces
+  double refit();
 };
 
 }  // namespace abut::contact

@@ -17,6 +17,10 @@ Bounds facet_bounds(const Patch& patch) {
   return box;
 }
 
+namespace {
+constexpr double worth_keeping = 0.75;  // of the skin: lists that would have to be looked at again at once are made anew
+}
+
 bool Candidates::update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin,
                         bool force, const Executor& executor) {
   if (!force && !first_.empty()) {
@@ -25,13 +29,21 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
     slack_ += change;
     clock_ += change;
     if (slack_ <= skin) return false;
+    // Nodes that go to and fro are not far from where the lists were made.
+    slack_ = Motion{shift_, std::sqrt(largest_motion(held.x(), held_then_, shift_, shift_).from_a),
+                    std::sqrt(largest_motion(surface.x(), surface_then_, shift_, shift_).from_a)}
+                 .change();
+    if (slack_ <= worth_keeping * skin) return false;
   }
+  held_then_.assign(held.x().begin(), held.x().end());
+  surface_then_.assign(surface.x().begin(), surface.x().end());
   shift_ = {};
   slack_ = 0.0;
   clock_ = 0.0;
-  boxes_.resize(at(surface.facet_count()));
-  for (Index f = 0; f < surface.facet_count(); ++f) boxes_[at(f)] = facet_bounds(surface.patch(f));
-  tree_.build(boxes_);
+  std::vector<Bounds>& boxes = tree_.boxes();
+  boxes.resize(at(surface.facet_count()));
+  for (Index f = 0; f < surface.facet_count(); ++f) boxes[at(f)] = facet_bounds(surface.patch(f));
+  tree_.update();
   make(held, surface, reach, skin, executor);
   return true;
 }

@@ -24,7 +24,7 @@ class Candidates {
     double due;  ///< distance when last measured + the clock then: the distance now is at least due - clock()
   };
 
-  /// Rebuilds the lists when the motion since the last build exceeds `skin` (or `force` is set).
+  /// Rebuilds the lists when any node-to-facet distance may have changed by more than `skin` since the last build (or `force` is set).
   /// @param motion  since the last update
   /// @param reach  #held, distance within which facets matter (< 0: this node needs none)
   /// @param executor  runs loops over held nodes; empty: the caller does
@@ -66,12 +66,12 @@ class Candidates {
 
  private:
   BoxTree tree_;
-  std::vector<Bounds> boxes_;
   std::vector<Index> first_;
   std::vector<Entry> entries_;
   std::vector<double> nearest_;
   std::vector<Others> others_;
-  Vec3 shift_;  ///< mean motion of the surface since the lists were made
+  std::vector<Vec3> held_then_, surface_then_;  ///< positions when the lists were made
+  Vec3 shift_;                                  ///< mean motion of the surface since then
   double slack_ = 0.0;
   double clock_ = 0.0;
 

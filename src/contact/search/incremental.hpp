@@ -27,7 +27,6 @@ class IncrementalSearch {
 
  private:
   BoxTree tree_;
-  std::vector<Bounds> boxes_;
   std::vector<Vec3> then_;
   double reach_ = 0.0;
   double moved_ = 0.0;

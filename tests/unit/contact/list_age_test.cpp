@@ -1,0 +1,78 @@
+// Search lists live until something has moved by a skin: nothing that an interface says or remembers may depend on how old they are.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "unit/contact/bench_host.hpp"
+
+namespace abut::contact::test {
+namespace {
+
+// Nodes wander in front of, beside and behind a wavy plate, most of them out of its reach, some in and out of contact.
+struct Wanderers {
+  Host host;
+  std::vector<Facet> plate;
+  std::vector<Index> nodes;
+  std::vector<std::vector<Vec3>> path;  // per step, of all nodes
+
+  Wanderers(int count, int steps, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    plate = grid(host, 6, 6, -3, 3, -3, 3, [](double x, double y) { return 0.05 * std::sin(2 * x) * std::cos(3 * y); });
+    const std::size_t first = host.x.size();
+    for (int i = 0; i < count; ++i) nodes.push_back(host.add({3.3 * u(random), 3.3 * u(random), 0.9 * u(random)}, 1.0));
+    std::vector<Vec3> now = host.x, velocity(host.x.size());
+    for (std::size_t i = first; i < now.size(); ++i) velocity[i] = 0.01 * Vec3{u(random), u(random), u(random)};
+    for (int step = 0; step < steps; ++step) {
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        if (i >= first) velocity[i] += 0.002 * Vec3{u(random), u(random), u(random)};
+        now[i] += i < first ? Vec3{0, 0, 0.002 * std::sin(0.3 * step + now[i].x)} : velocity[i];
+      }
+      path.push_back(now);
+    }
+  }
+  [[nodiscard]] Interface make(const Rules& rules) const {
+    Options o;
+    o.rules = rules;
+    o.gap = 0.05;
+    o.friction = 0.2;
+    Interface i = Interface::nodes_to_surface(nodes, std::vector<double>(nodes.size(), 1.0), Surface(plate), o);
+    const std::vector<double> stiffness(plate.size(), 1.0);
+    i.set_surface(1, {.stiffness = stiffness});
+    return i;
+  }
+};
+
+// T1, docs/determinism.md: an interface that goes on from a history makes new lists, and must say and remember what the other does.
+TEST(History, does_not_depend_on_the_age_of_the_lists) {
+  constexpr int steps = 120;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const Wanderers w(400, steps, seed);
+    Host whole = w.host;
+    Interface a = w.make(Rules::standard());
+    std::vector<std::pair<Host, Interface>> resumed;
+    int touched = 0;
+    for (int step = 0; step < steps; ++step) {
+      if (step % 20 == 10) {
+        resumed.emplace_back(whole, w.make(Rules::standard()));
+        resumed.back().second.restore(a.history());
+      }
+      whole.place(a, w.path[static_cast<std::size_t>(step)]);
+      touched += whole.last.in_contact;
+      const std::vector<std::byte> history = a.history();
+      for (auto& [host, b] : resumed) {
+        host.place(b, w.path[static_cast<std::size_t>(step)]);
+        ASSERT_EQ(host.f, whole.f) << "step " << step << ", seed " << seed;
+        ASSERT_EQ(host.k, whole.k) << "step " << step << ", seed " << seed;
+        ASSERT_EQ(host.last.largest_approach, whole.last.largest_approach) << "step " << step << ", seed " << seed;
+        ASSERT_EQ(host.last.kinematic_step, whole.last.kinematic_step) << "step " << step << ", seed " << seed;
+        ASSERT_TRUE(b.history() == history) << "step " << step << ", seed " << seed;
+      }
+    }
+    EXPECT_GT(touched, 20 * steps);  // per step some of 400 nodes touch
+    EXPECT_LT(touched, 200 * steps);
+  }
+}
+
+}  // namespace
+}  // namespace abut::contact::test
