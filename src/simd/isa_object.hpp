@@ -1,5 +1,5 @@
 // Included by the sources that are built once per instruction set (*.isa.cpp); the build defines ABUT_ISA (the namespace,
-// e.g. avx2) and ABUT_ISA_WIDTH (doubles per register). Such sources include no standard library header.
+// e.g. avx2) and ABUT_ISA_WIDTH (doubles per register; 1: plain doubles, see ABUT_SCALAR). Such sources include no standard library header.
 #pragma once
 
 #include "simd/pack.hpp"
@@ -9,5 +9,9 @@
 #endif
 
 namespace abut::simd::ABUT_ISA {
+#if ABUT_ISA_WIDTH == 1
+using Real = double;
+#else
 using Real = Pack<ABUT_ISA_WIDTH>;
+#endif
 }
