@@ -191,6 +191,7 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   store(b.penetration + k, p);
   store(b.force + k, force);
   store(b.potential + k, kappa * phi);
+  store(b.stiffness + k, kappa);
   store3(b.on_node, k, on_node);
   const T cs4 = quarter * cs, across[4] = {-(cs4 * (one - q.t)) - quarter * (ct * s0), cs4 * (one - q.t) - quarter * (ct * s1),
                                            cs4 * (one + q.t) + quarter * (ct * s1), quarter * (ct * s0) - cs4 * (one + q.t)};

@@ -63,7 +63,7 @@ struct HeldBatch {
   double normal[3][size], weight[4][size];
   double force[size];  ///< |normal force|
   double on_node[3][size], on_corner[4][3][size];
-  double potential[size], step_stiffness[size];
+  double potential[size], stiffness[size], step_stiffness[size];
   double rate[size], acceleration[size];
   double approach[size], kinematic_step[size];
   double slip[3][size], slip_normal[3][size], tangential_stiffness[size];

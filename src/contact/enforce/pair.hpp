@@ -17,6 +17,11 @@
 
 namespace abut::contact {
 
+/// Facets within this share of their length of the nearest one's distance may hold a node in its stead.
+inline constexpr double stronger_within = 0.25;
+/// Relative difference of energies that count as the same.
+inline constexpr double equally_strong = 1e-8;
+
 struct PairForce {
   Vec3 on_node;
   std::array<Vec3, 4> on_facet;  ///< by corner; a triangle's fourth is zero
@@ -26,10 +31,17 @@ struct PairForce {
   double extra_tangent = 0.0;    ///< bound of the tangent terms beyond kappa phi''
 };
 
+/// How the normal part of a pair's energy depends on its own distance: the law acts at `depth`, which changes by -`slope` per length of it.
+struct Depth {
+  double depth = 0.0;
+  double slope = 1.0;
+};
+
+/// @param p                      the pair's own penetration, slope 1; of a facet that is not the nearest: see Stronger
 /// @param scale, node_stiffness  s and K2
 /// @param widening               strips widen by this fraction of a side per unit of depth behind the facet (0: they do not)
 /// @param half_of_facet          K = s K1 / 2 instead of the series (nodes without a stiffness of their own)
-[[nodiscard]] PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, double gap, double scale,
+[[nodiscard]] PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, Depth p, double scale,
                                    double node_stiffness, bool half_of_facet, double widening);
 
 }  // namespace abut::contact

@@ -197,7 +197,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   sums.in_contact.push_back(held.nodes()[at(i)]);
   if (touch.fresh_hit) sums.crossed.push_back(held.nodes()[at(i)]);
 
-  const double share = 1.0 / static_cast<double>(touch.equals + 1);
+  const double share = 1.0 / static_cast<double>(touch.equals);
   const bool fresh = before.held == 0;
   double fraction = 1.0;  // of the last step in contact
   double factor = 1.0;
@@ -288,13 +288,15 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     totals.tangential -= on_surface;
   }
   sums.reactions.push_back(reaction);
-  for (std::size_t k = touch.first_equal; k < touch.first_equal + touch.equals; ++k) {
-    const Equal& one = sums.equals[k];
-    Reaction further{one.facet, reaction.stiffness, one.weight, {}, reaction.tangential};
+  for (std::size_t k = touch.first_further; k < touch.first_further + touch.further; ++k) {
+    const Further& one = sums.further[k];
+    if (!one.acts) continue;
+    Reaction more{one.measure.facet, reaction.stiffness, one.measure.closest.weight, {}, one.equal ? reaction.tangential : Vec3{}};
     for (std::size_t c = 0; c < 4; ++c) {
-      further.normal[c] = factor * one.on_facet[c] - (share * one.weight[c] * after.damping) * touch.normal;
+      more.normal[c] = factor * one.on_facet[c];
+      if (one.equal) more.normal[c] -= (share * more.weight[c] * after.damping) * touch.normal;
     }
-    sums.reactions.push_back(further);
+    sums.reactions.push_back(more);
   }
 }
 
