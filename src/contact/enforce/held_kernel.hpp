@@ -51,7 +51,7 @@ struct HeldBatch {
   double corner_stiffness[4][size];  ///< K1 at the corners
   double node_stiffness[size];       ///< K2
   double reach[size];                ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
-  double rate_before[size], acceleration_before[size];
+  double rate_before[size], acceleration_before[size], normal_before[3][size];
   double anchor[4][size];  ///< weights of the last contact point
   // Account (account.hpp): the push of the last step, the contact point it acted at, what it held, what was made; 1 where it counts.
   double push_before[3][size], last[4][size], force_before[size], stored_before[size], made_before[size], reckoned[size];

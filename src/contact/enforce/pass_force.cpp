@@ -177,8 +177,12 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
 
   const double h_before = step_before(host.dt, host.dt_bar_old);
   double made = 0.0;  // energy that the pair has made, before this cycle's force
+  // Along the normal that it was taken along before: where the normal turns, that is no acceleration.
+  const double rate_along_last = before.held != 0 ? motion.rate * dot(touch.normal, before.normal) +
+                                                        dot(motion.tangential_velocity, before.normal)
+                                                  : 0.0;
   if (before.held != 0) {
-    const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, motion.rate);
+    const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, rate_along_last);
     totals.stepped += by_step;
     if (before.reckoned != 0) {
       made = before.made - before.stored + 0.5 * host.dt * dot(before.push, velocity_over(host, held, surface, i, before.last)) + by_step;
@@ -209,7 +213,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
   const bool light = lightness > light_pair || before.light != 0;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
-    const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
+    const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
     const double coming = foreseen_step(h_before, host.dt);
     const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
@@ -247,7 +251,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (after.reckoned != 0) {
     after.last = {touch.weight, touch.facet};
     const Vec3 step = host.dt * (motion.rate * touch.normal + motion.tangential_velocity);
-    if (!fresh) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
+    after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
   }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {

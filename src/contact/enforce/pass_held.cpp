@@ -83,6 +83,7 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   batch.made_before[k] = before.made;
   batch.reckoned[k] = before.reckoned;
   put(batch.push_before, before.push);
+  put(batch.normal_before, before.normal);
   put(batch.slip_before, before.slip);
   put(batch.slip_normal_before, before.slip_normal);
 }
@@ -111,7 +112,7 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
   for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before,
                     &batch.force_before, &batch.stored_before, &batch.made_before, &batch.reckoned})
     repeat(*one);
-  for (auto* three : {&batch.push_before, &batch.slip_before, &batch.slip_normal_before}) {
+  for (auto* three : {&batch.push_before, &batch.normal_before, &batch.slip_before, &batch.slip_normal_before}) {
     for (auto& one : *three) repeat(one);
   }
   held_kernel()(held_rules(scene.host), batch);

@@ -186,7 +186,7 @@ inline Shots shoot(const std::function<double(double, double)>& height, double s
         const Vec3 aim{2 * u(random) - 1, 2 * u(random) - 1, 0};
         const Vec3 direction = normalized({u(random) - 0.5, u(random) - 0.5, -1.0});
         const Vec3 start = aim - (1.0 + u(random)) * per_step * direction;
-        nodes.push_back(host.add({start.x, start.y, start.z + height(start.x, start.y) + gap + 0.05}, 1.0, per_step * direction));
+        nodes.push_back(host.add({start.x, start.y, start.z + height(start.x, start.y) + gap + 0.05 + slack}, 1.0, per_step * direction));
       }
       Options o;
       o.gap = gap;
