@@ -217,7 +217,9 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   store(b.acceleration + k, force * inverse_mass);
   store(b.approach + k, rules.gap > 0.0 ? simd::select(closing * step >= T(-0.25) * p, closing * step / gap, zero) : zero);
   // Along the normal that it was taken along before: where the normal turns, that is no acceleration.
-  const T gained = dot(v, load3<T>(b.normal_before, k)) - load<T>(b.rate_before + k);
+  const V<T> last_normal = load3<T>(b.normal_before, k);
+  const T gained = dot(v, last_normal) - load<T>(b.rate_before + k);
+  ordinary = ordinary & (dot(n, last_normal) >= T(turns));
   // Account: what the step has made, before and with this force.
   const T by_step = quarter * load<T>(b.force_before + k) * T(rules.step_before - rules.step) * gained;
   const T half_step = T(0.5 * rules.step);

@@ -19,6 +19,8 @@ namespace abut::contact {
 
 /// h^2 K/m of a pair, once in its contact, from which on its account is settled.
 inline constexpr double light_pair = 0.1;
+/// Cosine of the angle (1.8 degrees) from which on a normal that turns in a step counts as one that passes over a fold.
+inline constexpr double turns = 0.9995;
 /// The coming step may be longer than the last one.
 inline constexpr double step_growth = 1.2;
 

@@ -9,12 +9,6 @@
 #include "contact/enforce/switching.hpp"
 
 namespace abut::contact {
-namespace {
-
-/// Cosine of the angle (1.8 degrees) by which a normal turns in a step over a fold.
-constexpr double turns = 0.9995;
-
-}  // namespace
 
 Vec3 Pass::velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point) {
   const std::array<Index, 4>& corner = surface.surface().local()[static_cast<std::size_t>(point.facet)];
@@ -220,6 +214,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
   // comes from in front deeper than its motion along the normal.
   const bool over_fold = fresh ? moved_in <= penetration && before.in_front != 0 : dot(before.normal, touch.normal) < turns;
+  bool settled = before.light == NodeState::settled;
   const bool light = lightness > light_pair || before.light != 0 || (over_fold && rules.switch_correction);
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
@@ -232,6 +227,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     const double longest = step_growth * host.dt;
     const double leaves = motion.rate + 0.5 * (host.dt + longest) * (inverse_mass * touch.pair.magnitude + others);
     if (light && leaves * longest > penetration && grown == 0.0 && (fresh ? moved_in > penetration : before.reckoned != 0)) {
+      settled = true;
       force = last_force({motion.rate, host.dt, coming, inverse_mass, others, -made});
       const double bound = touch.pair.stiffness * law_.force(4.0 * coming * leaves);
       force = std::clamp(force, switched.force - bound, switched.force + bound);
@@ -242,6 +238,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
         totals.kinematic_step = coming;
         totals.kinematic_node = held.nodes()[at(i)];
       }
+    } else if (settled && motion.rate > 0.0) {
+      // It has not left but met another facet: what that would give back and was not taken before is not there.
+      const double share = std::clamp(-made / touch.pair.potential, 0.0, 1.0);
+      force = share * touch.pair.magnitude;
+      stored = share * touch.pair.potential;
     }
     factor = force / touch.pair.magnitude;
   }
@@ -255,7 +256,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   after.stored = stored;
   // Of facets that are equally near the first stands for all.
   after.reckoned = rules.switch_correction && (fresh || before.reckoned != 0) ? 1 : 0;
-  after.light = light ? 1 : 0;
+  after.light = settled ? NodeState::settled : light ? 1 : 0;
   after.made = 0.0;
   if (after.reckoned != 0) {
     after.last = {touch.weight, touch.facet};

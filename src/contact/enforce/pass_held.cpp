@@ -36,7 +36,7 @@ HeldRules Pass::held_rules(const HostState& host) const {
 
 bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   const NodeState& before = state_[at(i)];
-  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0) return false;
+  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0 || before.light == NodeState::settled) return false;
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
   if (corner[2] == corner[3]) return false;
@@ -190,7 +190,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   after.stored = batch.potential[k];
   after.made = batch.made[k];
   after.reckoned = before.reckoned;
-  after.light = before.light != 0 || batch.light[k] != 0.0 ? 1 : 0;
+  after.light = std::max(before.light, static_cast<std::uint8_t>(batch.light[k] != 0.0 ? 1 : 0));
   after.last = before.reckoned != 0 ? SurfacePoint{reaction.weight, before.facet} : before.last;
   after.facet = before.facet;
   after.held = before.held;

@@ -219,8 +219,7 @@ inline Shots shoot(const std::function<double(double, double)>& height, double s
             const double normal_speed = v.z - slope_x * v.x - slope_y * v.y;
             const bool over = std::max(std::abs(end.x), std::abs(end.y)) < 12.0;  // else it slid off the border
             const bool behind = over && end.z < height(end.x, end.y) - slack;
-            if (over && !behind && normal_speed <= 0.0)
-              continue;  // on its way to the other side of a fold, or through: the next step tells
+            if (over && normal_speed <= 0.0) continue;  // on its way to the other side of a fold, or through: the next step tells
             --flying;
             state[s] = behind ? left_behind : left;
           }
