@@ -47,7 +47,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   const std::array<Index, 4>& corner = surface.surface().local()[at(m.facet)];
   const std::size_t corners = patch.triangle ? 3 : 4;
   const double p = own.depth;
-  const Wider wider = wider_at(-widening * m.distance);
+  const Wider wider = wider_at(-widening * own.distance);
   const double widens = wider.slope * widening;  // dw/dP
   const Taper t = taper(patch, c.s, c.t, wider.value);
   if (c.beyond || t.value <= 0.0) return result;
@@ -77,7 +77,8 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
 
   const double phi = law.potential(p);
   result.stiffness = t.value * pair;
-  result.magnitude = own.slope * (result.stiffness * law.force(p)) + pair * phi * t.dw * widens;
+  result.of_wider = pair * phi * t.dw * widens;
+  result.magnitude = own.slope * (result.stiffness * law.force(p)) + (own.nearest ? result.of_wider : 0.0);
   result.potential = result.stiffness * phi;
   result.on_node = result.magnitude * m.normal;
 

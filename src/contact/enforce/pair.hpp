@@ -28,16 +28,18 @@ struct PairForce {
   double magnitude = 0.0;        ///< kappa phi'(P) = |normal force|
   double potential = 0.0;        ///< Psi
   double stiffness = 0.0;        ///< kappa
+  double of_wider = 0.0;         ///< Kp phi dT/dP, a part of the normal force of the nearest facet
   double extra_tangent = 0.0;    ///< bound of the tangent terms beyond kappa phi''
 };
 
-/// How the normal part of a pair's energy depends on its own distance: the law acts at `depth`, which changes by -`slope` per length of it.
+/// What the energy of a pair depends on besides its contact point.
 struct Depth {
-  double depth = 0.0;
-  double slope = 1.0;
+  double depth = 0.0;     ///< where the law acts
+  double distance = 0.0;  ///< signed, of the node to the surface: strips widen with it
+  double slope = 1.0;     ///< `depth` changes by minus this per length of the pair's own distance
+  bool nearest = true;    ///< `distance` is the pair's own
 };
 
-/// @param p                      the pair's own penetration, slope 1; of a facet that is not the nearest: see Stronger
 /// @param scale, node_stiffness  s and K2
 /// @param widening               strips widen by this fraction of a side per unit of depth behind the facet (0: they do not)
 /// @param half_of_facet          K = s K1 / 2 instead of the series (nodes without a stiffness of their own)

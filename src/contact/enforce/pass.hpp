@@ -142,7 +142,7 @@ class Pass {
   // that stores more though it is less near.
   struct Further {
     Measure measure;
-    PairForce own;                   ///< as if it were the nearest
+    PairForce own;                   ///< as if it were the nearest, but for what widens its strips
     bool equal = false;              ///< as near as the first
     bool acts = false;
     std::array<Vec3, 4> on_facet{};  ///< its share
@@ -204,7 +204,7 @@ class Pass {
 
   [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, Depth p, bool widens) const;
   [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const {
-    return force_of(held, surface, m, i, Depth{gap - m.distance}, widens);
+    return force_of(held, surface, m, i, Depth{gap - m.distance, m.distance}, widens);
   }
   /// Largest stiffness that the node can have with any facet.
   [[nodiscard]] double strongest(const Side& held, const Side& surface, Index i) const;

@@ -182,7 +182,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
     const Measure its = signed_measure(surface, f, other, x);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
     if (sums.further.size() == touch.first_further) sums.further.push_back({m, touch.pair, true, false, {}});
-    sums.further.push_back({its, force_of(held, surface, its, i, gap, touch.widens), as_near, false, {}});
+    sums.further.push_back({its, force_of(held, surface, its, i, Depth{gap - its.distance, m.distance}, touch.widens), as_near, false, {}});
   }
   if (sums.further.size() == touch.first_further) return;
   const std::span<Further> all = std::span(sums.further).subspan(touch.first_further);
@@ -243,9 +243,9 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, double 
     const Other o = seen(one);
     const double slope = sign * (1.0 + p / o.length);
     const double of_nearest = 1.0 - o.less / o.length - slope;
-    PairForce part = force_of(held, surface, one.measure, i, Depth{o.depth, slope}, widens);
+    PairForce part = force_of(held, surface, one.measure, i, Depth{o.depth, nearest.measure.distance, slope, false}, widens);
     part.magnitude = part.stiffness * law_.force(o.depth);
-    const Vec3 push = (of_nearest * part.magnitude) * nearest.measure.normal;
+    const Vec3 push = (of_nearest * part.magnitude + part.of_wider) * nearest.measure.normal;
     part.on_node += push;
     const double turn = slope * slope + of_nearest * of_nearest + 2.0 * slope * of_nearest * dot(one.measure.normal, nearest.measure.normal);
     part.extra_tangent += std::max(turn - 1.0, 0.0) * part.stiffness * law_.tangent(p) + 2.0 * part.magnitude / o.length;

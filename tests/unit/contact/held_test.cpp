@@ -163,6 +163,7 @@ TEST(HeldKernel, does_not_see_its_neighbours) {
       rotate(b.slip_before[c]);
       rotate(b.slip_normal_before[c]);
       rotate(b.push_before[c]);
+      rotate(b.normal_before[c]);
     }
     held_kernel()(turned.rules, b);
     for (int k = 0; k + shift < HeldBatch::size; ++k)
