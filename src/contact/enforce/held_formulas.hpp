@@ -191,6 +191,7 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   store(b.penetration + k, p);
   store(b.force + k, force);
   store(b.potential + k, kappa * phi);
+  store(b.stiffness + k, kappa);
   store3(b.on_node, k, on_node);
   const T cs4 = quarter * cs, across[4] = {-(cs4 * (one - q.t)) - quarter * (ct * s0), cs4 * (one - q.t) - quarter * (ct * s1),
                                            cs4 * (one + q.t) + quarter * (ct * s1), quarter * (ct * s0) - cs4 * (one + q.t)};
@@ -215,8 +216,12 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   store(b.rate + k, rate);
   store(b.acceleration + k, force * inverse_mass);
   store(b.approach + k, rules.gap > 0.0 ? simd::select(closing * step >= T(-0.25) * p, closing * step / gap, zero) : zero);
+  // Along the normal that it was taken along before: where the normal turns, that is no acceleration.
+  const V<T> last_normal = load3<T>(b.normal_before, k);
+  const T gained = dot(v, last_normal) - load<T>(b.rate_before + k);
+  ordinary = ordinary & (dot(n, last_normal) >= T(turns));
   // Account: what the step has made, before and with this force.
-  const T by_step = quarter * load<T>(b.force_before + k) * T(rules.step_before - rules.step) * (rate - load<T>(b.rate_before + k));
+  const T by_step = quarter * load<T>(b.force_before + k) * T(rules.step_before - rules.step) * gained;
   const T half_step = T(0.5 * rules.step);
   const T made = load<T>(b.made_before + k) - load<T>(b.stored_before + k) + half_step * dot(load3<T>(b.push_before, k), v_last) + by_step;
   store(b.made + k, load<T>(b.reckoned + k) * (made + half_step * dot(on_node, v) + kappa * phi));
@@ -224,7 +229,7 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   if (rules.corrects_switching) {
     // Neither ends in the coming step as switching.hpp and the account see it.
     T others = zero;
-    if (rules.mean_step > 0.0) others = (rate - load<T>(b.rate_before + k)) / T(rules.mean_step) - load<T>(b.acceleration_before + k);
+    if (rules.mean_step > 0.0) others = gained / T(rules.mean_step) - load<T>(b.acceleration_before + k);
     ordinary = ordinary & (rate * step + (step * step) * (inverse_mass * force + others) <= p);
     const T leaves = rate + T(0.5 * (1.0 + step_growth)) * (step * (inverse_mass * force + others));
     ordinary = ordinary & (leaves * (T(step_growth) * step) <= p);

@@ -19,6 +19,8 @@ namespace abut::contact {
 
 /// h^2 K/m of a pair, once in its contact, from which on its account is settled.
 inline constexpr double light_pair = 0.1;
+/// Cosine of the angle (1.8 degrees) from which on a normal that turns in a step counts as one that passes over a fold.
+inline constexpr double turns = 0.9995;
 /// The coming step may be longer than the last one.
 inline constexpr double step_growth = 1.2;
 
@@ -51,7 +53,7 @@ struct HeldBatch {
   double corner_stiffness[4][size];  ///< K1 at the corners
   double node_stiffness[size];       ///< K2
   double reach[size];                ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
-  double rate_before[size], acceleration_before[size];
+  double rate_before[size], acceleration_before[size], normal_before[3][size];
   double anchor[4][size];  ///< weights of the last contact point
   // Account (account.hpp): the push of the last step, the contact point it acted at, what it held, what was made; 1 where it counts.
   double push_before[3][size], last[4][size], force_before[size], stored_before[size], made_before[size], reckoned[size];
@@ -63,7 +65,7 @@ struct HeldBatch {
   double normal[3][size], weight[4][size];
   double force[size];  ///< |normal force|
   double on_node[3][size], on_corner[4][3][size];
-  double potential[size], step_stiffness[size];
+  double potential[size], stiffness[size], step_stiffness[size];
   double rate[size], acceleration[size];
   double approach[size], kinematic_step[size];
   double slip[3][size], slip_normal[3][size], tangential_stiffness[size];

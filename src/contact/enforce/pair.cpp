@@ -39,15 +39,15 @@ Wider wider_at(double x) {
 
 }  // namespace
 
-PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, double gap, double scale,
+PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, Depth own, double scale,
                      double node_stiffness, bool half_of_facet, double widening) {
   PairForce result;
   const ClosestPoint& c = m.closest;
   const Patch patch = surface.patch(m.facet);
   const std::array<Index, 4>& corner = surface.surface().local()[at(m.facet)];
   const std::size_t corners = patch.triangle ? 3 : 4;
-  const double p = gap - m.distance;
-  const Wider wider = wider_at(-widening * m.distance);
+  const double p = own.depth;
+  const Wider wider = wider_at(-widening * own.distance);
   const double widens = wider.slope * widening;  // dw/dP
   const Taper t = taper(patch, c.s, c.t, wider.value);
   if (c.beyond || t.value <= 0.0) return result;
@@ -77,7 +77,8 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
 
   const double phi = law.potential(p);
   result.stiffness = t.value * pair;
-  result.magnitude = result.stiffness * law.force(p) + pair * phi * t.dw * widens;
+  result.of_wider = pair * phi * t.dw * widens;
+  result.magnitude = own.slope * (result.stiffness * law.force(p)) + (own.nearest ? result.of_wider : 0.0);
   result.potential = result.stiffness * phi;
   result.on_node = result.magnitude * m.normal;
 
@@ -127,7 +128,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   }
   if (c.feature != Feature::face && m.distance < 0.0) {
     // Behind an inward fold the direction turns with radius |d|.
-    result.extra_tangent += std::min(result.magnitude / -m.distance, 10.0 * result.stiffness * law.tangent(p));
+    result.extra_tangent += std::min(std::abs(result.magnitude) / -m.distance, 10.0 * result.stiffness * law.tangent(p));
   }
   for (std::size_t i = 0; i < corners; ++i) {
     result.on_facet[i] = -c.weight[i] * result.on_node - (shift[0] * dh[0][i] + shift[1] * dh[1][i]) * r;

@@ -17,19 +17,33 @@
 
 namespace abut::contact {
 
+/// Facets within this share of their length of the nearest one's distance may hold a node in its stead.
+inline constexpr double stronger_within = 0.25;
+/// Relative difference of energies that count as the same.
+inline constexpr double equally_strong = 1e-8;
+
 struct PairForce {
   Vec3 on_node;
   std::array<Vec3, 4> on_facet;  ///< by corner; a triangle's fourth is zero
   double magnitude = 0.0;        ///< kappa phi'(P) = |normal force|
   double potential = 0.0;        ///< Psi
   double stiffness = 0.0;        ///< kappa
+  double of_wider = 0.0;         ///< Kp phi dT/dP, a part of the normal force of the nearest facet
   double extra_tangent = 0.0;    ///< bound of the tangent terms beyond kappa phi''
+};
+
+/// What the energy of a pair depends on besides its contact point.
+struct Depth {
+  double depth = 0.0;     ///< where the law acts
+  double distance = 0.0;  ///< signed, of the node to the surface: strips widen with it
+  double slope = 1.0;     ///< `depth` changes by minus this per length of the pair's own distance
+  bool nearest = true;    ///< `distance` is the pair's own
 };
 
 /// @param scale, node_stiffness  s and K2
 /// @param widening               strips widen by this fraction of a side per unit of depth behind the facet (0: they do not)
 /// @param half_of_facet          K = s K1 / 2 instead of the series (nodes without a stiffness of their own)
-[[nodiscard]] PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, double gap, double scale,
+[[nodiscard]] PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, Depth p, double scale,
                                    double node_stiffness, bool half_of_facet, double widening);
 
 }  // namespace abut::contact

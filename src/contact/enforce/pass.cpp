@@ -116,6 +116,8 @@ void Pass::limit_depths() {
     smallest_depth_ = std::min(smallest_depth_, d);
     largest_depth_ = std::max(largest_depth_, d);
   }
+  longest_ = 0.0;
+  for (const double w : widening_) longest_ = w > 0.0 ? std::max(longest_, 1.0 / w) : longest_;
 }
 
 void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
@@ -128,6 +130,8 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
     std::fill(quiet_.begin(), quiet_.end(), std::uint8_t{awake});
   }
   skin_ = 0.25 * size_;
+  // Of held nodes also what stores more than the nearest facet (pair.hpp).
+  const double further = stronger_within * longest_;
   // A held node's distance changes by at most slack() <= skin until the next build: twice the skin covers both ends.
   const auto reach_of = [&](Index i) {
     if (!held.node_active(i)) return -1.0;
@@ -136,7 +140,7 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
     // Lists are made with the usual strips; wider ones may bring a facet nearer by what they are wider.
     const double wider =
         s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
-    return std::max(reach(), std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
+    return std::max(reach(), std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider + further);
   };
   const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_, executor_);
   if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);
@@ -183,7 +187,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
   sums.totals = {};
   sums.reactions.clear();
   for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
-  sums.equals.clear();
+  sums.further.clear();
   if (group_asleep(scene, number)) return;
   NodeStates::Loan loan(states_, number, work.scratch);
   std::array<Touch, at(group)>& touches = work.touches;
@@ -215,11 +219,11 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
       const Index i = nodes[k];
       if (lane[k] == none) continue;
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
-      if (ordinary && alone(batch, lane[k], i)) continue;
+      if (ordinary && alone(batch, lane[k], i, strongest(held, surface, i))) continue;
       Touch& touch = touches[k];
       measure(scene, i, touch, sums);
       any = any || touch.contact;
-      const bool same = ordinary && touch.contact && touch.facet == states_.before(i).facet && touch.equals == 0;
+      const bool same = ordinary && touch.contact && touch.facet == states_.before(i).facet && touch.further == 0;
       if (!same) lane[k] = none;
     }
     for (std::size_t k = 0; k < count; ++k) {

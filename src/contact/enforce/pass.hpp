@@ -97,18 +97,22 @@ class Pass {
     Vec3 point, normal;
     double distance = 0.0;
     double penetration = 0.0;
-    Measure measure;              ///< what `pair` is made from, where it is not made yet
-    double gap = 0.0;             ///< the same
-    bool pair_open = false;       ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
-    PairForce pair;               ///< where several facets are equally near: the mean of theirs
-    std::size_t first_equal = 0;  ///< further facets at the same distance: GroupSums::equals from here
-    std::size_t equals = 0;
+    Measure measure;                ///< what `pair` is made from, where it is not made yet
+    double gap = 0.0;               ///< the same
+    bool pair_open = false;         ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
+    PairForce pair;                 ///< where several facets are equally near: the mean of theirs
+    std::size_t first_further = 0;  ///< further facets that the force acts on: GroupSums::further from here
+    std::size_t further = 0;
+    int equals = 1;  ///< facets at the same distance
   };
-  // A further facet that is as near as the first: the node's force is the mean over all, whatever their ids.
-  struct Equal {
-    Index facet = no_index;
-    std::array<double, 4> weight{};
-    std::array<Vec3, 4> on_facet;  ///< its share
+  // A further facet that the node acts on: as near as the first (the node's force is the mean over all, whatever their ids), or one
+  // that stores more though it is less near.
+  struct Further {
+    Measure measure;
+    PairForce own;       ///< as if it were the nearest, but for what widens its strips
+    bool equal = false;  ///< as near as the first
+    bool acts = false;
+    std::array<Vec3, 4> on_facet{};  ///< its share
   };
   // What a node does to the corners of its facet; added in the order of the nodes when all are measured.
   struct Reaction {
@@ -123,7 +127,7 @@ class Pass {
     PassTotals totals;
     std::vector<Reaction> reactions;
     std::vector<Index> in_contact, crossed, lost;
-    std::vector<Equal> equals;
+    std::vector<Further> further;
   };
   struct Scene {
     const HostState& host;
@@ -162,6 +166,7 @@ class Pass {
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
   std::vector<double> depth_;     ///< per facet: how far behind a node is still met
   std::vector<double> widening_;  ///< per facet: 1 / its length at the start
+  double longest_ = 0.0;          ///< length of the largest facet at the start
   NodeStates states_;
   std::vector<Tracked> tracked_;
   std::vector<Index> in_contact_, crossed_, lost_;
@@ -177,7 +182,14 @@ class Pass {
   Vec3 mean_step_;
   std::vector<double> group_due_;  ///< per group of nodes: smallest nearest_due() where all are quiet, else unknown_due
 
-  [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const;
+  [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, Depth p, bool widens) const;
+  [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const {
+    return force_of(held, surface, m, i, Depth{gap - m.distance, m.distance}, widens);
+  }
+  /// Largest stiffness that the node can have with any facet.
+  [[nodiscard]] double strongest(const Side& held, const Side& surface, Index i) const;
+  /// How much less near than the nearest a facet that stores more can be; `stiffness` that of the nearest, at penetration p.
+  [[nodiscard]] double reach_of_stronger(double stiffness, double strongest, double p) const;
   /// How much of a node's offset the gradual start gives back to its gap in this step.
   [[nodiscard]] double growth(const NodeState& before) const;
   /// Gap of a node at this distance, less what initial penetration takes from it.
@@ -185,8 +197,12 @@ class Pass {
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                        const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums);
-  /// Adds the facets that are as near as the one in `touch`.
-  void share_among_equals(const Side& held, const Side& surface, const Measure& m, Index i, double strip, Touch& touch, GroupSums& sums);
+  /// Adds the facets that are as near as the one in `touch`, and those that store more (pair.hpp).
+  void look_further(const Side& held, const Side& surface, const Measure& m, Index i, double strip, bool was_held, Touch& touch,
+                    GroupSums& sums);
+  /// The pair of facet `nearest` and node i, with whichever of `all` stores the most for it.
+  void add_strongest(const Side& held, const Side& surface, Index i, double gap, bool widens, Further& nearest, std::span<Further> all,
+                     double share, PairForce& sum) const;
   void measure_plain(const Side& held, const Side& surface, Index i, Touch& touch);
   /// Stiffness of a node with a facet, neither interpolated nor tapered (T13; TYPE5: half of the facet's).
   [[nodiscard]] double plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const;
@@ -219,7 +235,9 @@ class Pass {
   /// Measured at this distance, whatever the age of the lists.
   [[nodiscard]] bool near(const HostState& host, const Side& held, const SideLoads& held_loads, Index i, double distance) const;
   /// Distance within which lists have every facet: where contact is, and where it may begin in the coming step.
-  [[nodiscard]] double reach() const { return std::max(options_.gap, largest_depth_) + flight_share * size_; }
+  [[nodiscard]] double reach() const {
+    return std::max({options_.gap, largest_depth_, skin_ + stronger_within * longest_}) + flight_share * size_;
+  }
   /// The same for all nodes of a group at once, or false.
   [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
   /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
@@ -237,8 +255,8 @@ class Pass {
   void put_in(const Scene& scene, Index i, HeldBatch& batch) const;
   void run_batch(const Scene& scene, HeldBatch& batch) const;
   void add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const;
-  /// No other facet can be as near as the one that holds the node.
-  [[nodiscard]] bool alone(const HeldBatch& batch, int lane, Index i) const;
+  /// No other facet can be as near as the one that holds the node, nor store more; `strongest` the largest stiffness of the node.
+  [[nodiscard]] bool alone(const HeldBatch& batch, int lane, Index i, double strongest) const;
   void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
   void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                    GroupSums& sums);

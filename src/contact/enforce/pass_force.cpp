@@ -175,8 +175,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
 
   const double h_before = step_before(host.dt, host.dt_bar_old);
   double made = 0.0;  // energy that the pair has made, before this cycle's force
+  // Along the normal that it was taken along before: where the normal turns, that is no acceleration.
+  const double rate_along_last =
+      before.held != 0 ? motion.rate * dot(touch.normal, before.normal) + dot(motion.tangential_velocity, before.normal) : 0.0;
   if (before.held != 0) {
-    const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, motion.rate);
+    const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, rate_along_last);
     totals.stepped += by_step;
     if (before.reckoned != 0) {
       made = before.made - before.stored + 0.5 * host.dt * dot(before.push, velocity_over(host, held, surface, i, before.last)) + by_step;
@@ -195,7 +198,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   sums.in_contact.push_back(held.nodes()[at(i)]);
   if (touch.fresh_hit) sums.crossed.push_back(held.nodes()[at(i)]);
 
-  const double share = 1.0 / static_cast<double>(touch.equals + 1);
+  const double share = 1.0 / static_cast<double>(touch.equals);
   const bool fresh = before.held == 0;
   double fraction = 1.0;  // of the last step in contact
   double factor = 1.0;
@@ -205,9 +208,13 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   double stored = touch.pair.potential;
   const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
-  const bool light = lightness > light_pair || before.light != 0;
+  // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
+  // comes from in front deeper than its motion along the normal.
+  const bool over_fold = fresh ? moved_in <= penetration && before.in_front != 0 : dot(before.normal, touch.normal) < turns;
+  bool settled = before.light == NodeState::settled;
+  const bool light = lightness > light_pair || before.light != 0 || (over_fold && rules.switch_correction);
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
-    const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
+    const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
     const double coming = foreseen_step(h_before, host.dt);
     const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
@@ -217,6 +224,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     const double longest = step_growth * host.dt;
     const double leaves = motion.rate + 0.5 * (host.dt + longest) * (inverse_mass * touch.pair.magnitude + others);
     if (light && leaves * longest > penetration && grown == 0.0 && (fresh ? moved_in > penetration : before.reckoned != 0)) {
+      settled = true;
       force = last_force({motion.rate, host.dt, coming, inverse_mass, others, -made});
       const double bound = touch.pair.stiffness * law_.force(4.0 * coming * leaves);
       force = std::clamp(force, switched.force - bound, switched.force + bound);
@@ -227,6 +235,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
         totals.kinematic_step = coming;
         totals.kinematic_node = held.nodes()[at(i)];
       }
+    } else if (settled && motion.rate > 0.0) {
+      // It has not left but met another facet: what that would give back and was not taken before is not there.
+      const double share = std::clamp(-made / touch.pair.potential, 0.0, 1.0);
+      force = share * touch.pair.magnitude;
+      stored = share * touch.pair.potential;
     }
     factor = force / touch.pair.magnitude;
   }
@@ -240,12 +253,12 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   after.stored = stored;
   // Of facets that are equally near the first stands for all.
   after.reckoned = rules.switch_correction && (fresh || before.reckoned != 0) ? 1 : 0;
-  after.light = light ? 1 : 0;
+  after.light = settled ? NodeState::settled : light ? 1 : 0;
   after.made = 0.0;
   if (after.reckoned != 0) {
     after.last = {touch.weight, touch.facet};
     const Vec3 step = host.dt * (motion.rate * touch.normal + motion.tangential_velocity);
-    if (!fresh) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
+    after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
   }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {
@@ -286,13 +299,15 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     totals.tangential -= on_surface;
   }
   sums.reactions.push_back(reaction);
-  for (std::size_t k = touch.first_equal; k < touch.first_equal + touch.equals; ++k) {
-    const Equal& one = sums.equals[k];
-    Reaction further{one.facet, reaction.stiffness, one.weight, {}, reaction.tangential};
+  for (std::size_t k = touch.first_further; k < touch.first_further + touch.further; ++k) {
+    const Further& one = sums.further[k];
+    if (!one.acts) continue;
+    Reaction more{one.measure.facet, reaction.stiffness, one.measure.closest.weight, {}, one.equal ? reaction.tangential : Vec3{}};
     for (std::size_t c = 0; c < 4; ++c) {
-      further.normal[c] = factor * one.on_facet[c] - (share * one.weight[c] * after.damping) * touch.normal;
+      more.normal[c] = factor * one.on_facet[c];
+      if (one.equal) more.normal[c] -= (share * more.weight[c] * after.damping) * touch.normal;
     }
-    sums.reactions.push_back(further);
+    sums.reactions.push_back(more);
   }
 }
 

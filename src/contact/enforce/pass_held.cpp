@@ -36,7 +36,8 @@ HeldRules Pass::held_rules(const HostState& host) const {
 
 bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   const NodeState& before = states_.before(i);
-  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0) return false;
+  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0 || before.light == NodeState::settled)
+    return false;
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
   if (corner[2] == corner[3]) return false;
@@ -83,6 +84,7 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   batch.made_before[k] = before.made;
   batch.reckoned[k] = before.reckoned;
   put(batch.push_before, before.push);
+  put(batch.normal_before, before.normal);
   put(batch.slip_before, before.slip);
   put(batch.slip_normal_before, before.slip_normal);
 }
@@ -111,18 +113,19 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
   for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before,
                     &batch.force_before, &batch.stored_before, &batch.made_before, &batch.reckoned})
     repeat(*one);
-  for (auto* three : {&batch.push_before, &batch.slip_before, &batch.slip_normal_before}) {
+  for (auto* three : {&batch.push_before, &batch.normal_before, &batch.slip_before, &batch.slip_normal_before}) {
     for (auto& one : *three) repeat(one);
   }
   held_kernel()(held_rules(scene.host), batch);
 }
 
-bool Pass::alone(const HeldBatch& batch, int lane, Index i) const {
+bool Pass::alone(const HeldBatch& batch, int lane, Index i, double strongest) const {
   const Candidates::Others& others = candidates_.others(i);
   const NodeState& before = states_.before(i);
   if (others.facet != before.facet || (before.held == 2 && !others.wide)) return false;
-  // Beyond what counts as equally near, with room for the rounding of the clock.
-  const double reach = (others.due - candidates_.clock()) * (1.0 - 2.0 * equally_near);
+  // Beyond what counts as equally near or can store more, with room for the rounding of the clock.
+  const double further = reach_of_stronger(batch.stiffness[lane], strongest, batch.penetration[lane]);
+  const double reach = (others.due - candidates_.clock()) * (1.0 - 2.0 * equally_near) - (1.0 + 1e-6) * further;
   return reach > 0.0 && reach * reach > batch.squared_distance[lane];
 }
 
@@ -188,7 +191,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   after.stored = batch.potential[k];
   after.made = batch.made[k];
   after.reckoned = before.reckoned;
-  after.light = before.light != 0 || batch.light[k] != 0.0 ? 1 : 0;
+  after.light = std::max(before.light, static_cast<std::uint8_t>(batch.light[k] != 0.0 ? 1 : 0));
   after.last = before.reckoned != 0 ? SurfacePoint{reaction.weight, before.facet} : before.last;
   after.facet = before.facet;
   after.held = before.held;

@@ -164,59 +164,138 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
                    (meets && m.distance - host.dt * kinematics(host, held, surface, i, touch).rate > gap);
   }
   touch.pair_open = !meets && !was_held;
-  if (touch.pair_open) {
-    touch.measure = m;
-    touch.gap = gap;
-    return;
-  }
+  touch.measure = m;
+  touch.gap = gap;
+  // Beyond the end of the nearest strip another facet may still hold the node.
+  const bool beside = m.closest.beyond && touch.penetration > 0.0 && after.ignored == 0 && after.offset == 0.0 && !touch.lost &&
+                      (was_held || -m.distance <= depth_[at(m.facet)]);
+  if (touch.pair_open && !beside) return;
   touch.pair = force_of(held, surface, m, i, gap, touch.widens);
-  touch.contact = meets && touch.pair.magnitude > 0.0;
+  if (meets || beside) look_further(held, surface, m, i, strip, was_held, touch, sums);
+  touch.contact = (meets || beside) && touch.pair.magnitude > 0.0;
+  touch.pair_open = touch.pair_open && !touch.contact;
+  if (touch.pair_open) return;
   // Still behind the gap, but where the strip of a free border has faded to nothing.
   touch.lost = touch.lost || (was_held && touch.penetration > 0.0 && after.ignored == 0 && touch.pair.stiffness <= 0.0);
-  if (touch.contact) share_among_equals(held, surface, m, i, strip, touch, sums);
 }
 
-PairForce Pass::force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const {
-  return pair_force(surface, m, held.x()[at(i)], law_, gap, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_,
+PairForce Pass::force_of(const Side& held, const Side& surface, const Measure& m, Index i, Depth p, bool widens) const {
+  return pair_force(surface, m, held.x()[at(i)], law_, p, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_,
                     widens ? widening_[at(m.facet)] : 0.0);
 }
 
-void Pass::share_among_equals(const Side& held, const Side& surface, const Measure& m, Index i, double strip, Touch& touch,
-                              GroupSums& sums) {
+double Pass::strongest(const Side& held, const Side& surface, Index i) const {
+  const double k1 = surface.largest_corner_stiffness();
+  const double k2 = held.node_stiffness(i);
+  if (half_of_facet_) return 0.5 * options_.stiffness_scale * k1;
+  return k1 > 0.0 && k2 > 0.0 ? options_.stiffness_scale * k1 * k2 / (k1 + k2) : 0.0;
+}
+
+double Pass::reach_of_stronger(double stiffness, double strongest, double p) const {
+  // phi(P*)/phi(P) <= (P*/P)^2 for both laws.
+  const double share = strongest > 0.0 ? stiffness * (1.0 + equally_strong) / strongest : 1.0;
+  if (share >= 1.0) return 0.0;
+  const double length = stronger_within * longest_;
+  return (1.0 - std::sqrt(share)) * p * length / (p + length);
+}
+
+void Pass::look_further(const Side& held, const Side& surface, const Measure& m, Index i, double strip, bool was_held, Touch& touch,
+                        GroupSums& sums) {
   const Vec3 x = held.x()[at(i)];
   const double distance = std::sqrt(m.closest.squared_distance);
   const double size = surface.facet_area(m.facet);
-  touch.first_equal = sums.equals.size();
-  PairForce& pair = touch.pair;
-  Vec3 normal = touch.normal;
+  const double gap = touch.penetration + m.distance;
+  const double top = strongest(held, surface, i);
+  const double beyond = reach_of_stronger(touch.pair.stiffness, top, touch.penetration);
+  const double reach = was_held ? 1e300 : std::max(options_.gap, largest_depth_);  // what every list holds
+  const double equal = equally_near * distance;
+  touch.first_further = sums.further.size();
   for (const Candidates::Entry& entry : candidates_.of(i)) {
     const Index f = entry.facet;
-    if (entry.due - candidates_.clock() > (1.0 + equally_near) * distance || f == m.facet || !surface.active(f)) continue;
+    if (entry.due - candidates_.clock() > (1.0 + equally_near) * distance + beyond || f == m.facet || !surface.active(f)) continue;
     const ClosestPoint other = closest_point(extended(surface, f, strip), x);
-    if (std::abs(std::sqrt(other.squared_distance) - distance) > equally_near * distance || other.beyond) continue;
-    if (squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from the facet across
+    const double away = std::sqrt(other.squared_distance);
+    const bool as_near = std::abs(away - distance) <= equal;
+    if (!as_near && !(away > distance && away - distance < beyond && away <= reach)) continue;
+    if (other.beyond || squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from across
     const Measure its = signed_measure(surface, f, other, x);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
-    const PairForce one = force_of(held, surface, its, i, touch.penetration + m.distance, touch.widens);
-    sums.equals.push_back({f, other.weight, one.on_facet});
-    normal += its.normal;
-    pair.on_node += one.on_node;
-    pair.magnitude += one.magnitude;
-    pair.potential += one.potential;
-    pair.stiffness = std::max(pair.stiffness, one.stiffness);
-    pair.extra_tangent = std::max(pair.extra_tangent, one.extra_tangent);
+    if (sums.further.size() == touch.first_further) sums.further.push_back({m, touch.pair, true, false, {}});
+    sums.further.push_back({its, force_of(held, surface, its, i, Depth{gap - its.distance, m.distance}, touch.widens), as_near, false, {}});
   }
-  touch.equals = sums.equals.size() - touch.first_equal;
-  if (touch.equals == 0) return;
-  const double share = 1.0 / static_cast<double>(touch.equals + 1);
-  pair.on_node = share * pair.on_node;
-  pair.magnitude *= share;
-  pair.potential *= share;
-  for (Vec3& force : pair.on_facet) force = share * force;
-  for (std::size_t k = touch.first_equal; k < sums.equals.size(); ++k) {
-    for (Vec3& force : sums.equals[k].on_facet) force = share * force;
+  if (sums.further.size() == touch.first_further) return;
+  const std::span<Further> all = std::span(sums.further).subspan(touch.first_further);
+  touch.equals = static_cast<int>(std::count_if(all.begin(), all.end(), [](const Further& one) { return one.equal; }));
+  PairForce sum;
+  Vec3 normal{};
+  for (Further& one : all) {
+    if (!one.equal) continue;
+    normal += one.measure.normal;
+    add_strongest(held, surface, i, gap, touch.widens, one, all, 1.0 / touch.equals, sum);
   }
-  touch.normal = normalized(normal);
+  sum.on_facet = all[0].on_facet;
+  all[0].acts = false;  // it has the node's own reaction
+  if (touch.equals > 1 || std::any_of(all.begin(), all.end(), [](const Further& one) { return one.acts; })) {
+    touch.pair = sum;
+    touch.further = all.size();
+    if (touch.equals > 1) touch.normal = normalized(normal);
+  } else {
+    sums.further.resize(touch.first_further);
+  }
+}
+
+void Pass::add_strongest(const Side& held, const Side& surface, Index i, double gap, bool widens, Further& nearest, std::span<Further> all,
+                         double share, PairForce& sum) const {
+  const double sign = nearest.measure.distance < 0.0 ? -1.0 : 1.0;
+  const double p = gap - nearest.measure.distance;
+  struct Other {
+    double length, less, depth;
+  };
+  const auto seen = [&](const Further& one) {
+    const double length = stronger_within / widening_[at(one.measure.facet)];
+    const double less = std::max(0.0, sign * (one.measure.distance - nearest.measure.distance));
+    return Other{length, less, p - less * (1.0 + p / length)};
+  };
+  const auto stores = [&](const Further& one) {
+    if (&one == &nearest || widening_[at(one.measure.facet)] <= 0.0) return 0.0;
+    return one.own.stiffness * law_.potential(seen(one).depth);
+  };
+  double most = 0.0;
+  for (const Further& one : all) most = std::max(most, stores(one));
+  const auto add = [&](const PairForce& part, double of_it) {
+    sum.on_node += of_it * part.on_node;
+    sum.magnitude += of_it * part.magnitude;
+    sum.potential += of_it * part.potential;
+    sum.stiffness = std::max(sum.stiffness, part.stiffness);
+    sum.extra_tangent = std::max(sum.extra_tangent, part.extra_tangent);
+  };
+  if (most <= (1.0 + equally_strong) * nearest.own.potential) {
+    add(nearest.own, share);
+    for (std::size_t c = 0; c < 4; ++c) nearest.on_facet[c] += share * nearest.own.on_facet[c];
+    nearest.acts = true;
+    return;
+  }
+  const auto strong = [&](const Further& one) { return stores(one) >= (1.0 - equally_strong) * most; };
+  share /= static_cast<double>(std::count_if(all.begin(), all.end(), strong));
+  for (Further& one : all) {
+    if (!strong(one)) continue;
+    const Other o = seen(one);
+    const double slope = sign * (1.0 + p / o.length);
+    const double of_nearest = 1.0 - o.less / o.length - slope;
+    PairForce part = force_of(held, surface, one.measure, i, Depth{o.depth, nearest.measure.distance, slope, false}, widens);
+    part.magnitude = part.stiffness * law_.force(o.depth);
+    const Vec3 push = (of_nearest * part.magnitude + part.of_wider) * nearest.measure.normal;
+    part.on_node += push;
+    const double turn =
+        slope * slope + of_nearest * of_nearest + 2.0 * slope * of_nearest * dot(one.measure.normal, nearest.measure.normal);
+    part.extra_tangent += std::max(turn - 1.0, 0.0) * part.stiffness * law_.tangent(p) + 2.0 * part.magnitude / o.length;
+    add(part, share);
+    for (std::size_t c = 0; c < 4; ++c) {
+      one.on_facet[c] += share * part.on_facet[c];
+      nearest.on_facet[c] -= (share * nearest.measure.closest.weight[c]) * push;
+    }
+    one.acts = nearest.acts = true;
+  }
 }
 
 double Pass::growth(const NodeState& before) const { return before.offset < never ? (1.0 - keep_) * before.offset : 0.0; }

@@ -1,5 +1,6 @@
 #include "contact/surface/side.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -86,6 +87,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     }
     borders_[at(f)] = static_cast<std::uint8_t>(borders);
   }
+  largest_corner_stiffness_ = 0.0;
   for (Index s = 0; s < node_count(); ++s) {
     double sum = 0.0;
     double mean = 0.0;
@@ -103,6 +105,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     node_active_[at(s)] = state.node_active.empty() ? (around > 0 ? 1 : 0) : state.node_active[at(s)];
     node_stiffness_[at(s)] = sum;
     corner_stiffness_[at(s)] = around > 0 ? mean / around : 0.0;
+    largest_corner_stiffness_ = std::max(largest_corner_stiffness_, corner_stiffness_[at(s)]);
   }
 }
 

@@ -39,6 +39,7 @@ class Side {
   [[nodiscard]] double node_stiffness(Index s) const { return node_stiffness_[at(s)]; }
   /// Facet stiffness averaged at a node: the corner values of a field that is continuous over the surface.
   [[nodiscard]] double corner_stiffness(Index s) const { return corner_stiffness_[at(s)]; }
+  [[nodiscard]] double largest_corner_stiffness() const { return largest_corner_stiffness_; }
   [[nodiscard]] double thickness(Index f) const { return thickness_.empty() ? 0.0 : thickness_[at(f)]; }
   [[nodiscard]] bool has_thickness() const { return !thickness_.empty(); }
 
@@ -73,6 +74,7 @@ class Side {
   std::vector<Index> listed_;  ///< facet number as the host listed it
   std::vector<std::uint8_t> active_, node_active_, borders_;
   std::vector<double> facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_;
+  double largest_corner_stiffness_ = 0.0;
   std::vector<Vec3> x_;
 };
 

@@ -166,8 +166,9 @@ struct Shots {
 /// @param height  of the surface, facets of size 1
 /// @param slack   the facets lie above it by up to this
 /// @param count   shots per half
+/// @param hhk     h^2 K/m of the stiffest part of the law
 inline Shots shoot(const std::function<double(double, double)>& height, double slack, int count, unsigned seed,
-                   const Rules& rules = Rules::standard()) {
+                   const Rules& rules = Rules::standard(), double hhk = 0.2) {
   constexpr int together = 250;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -182,18 +183,18 @@ inline Shots shoot(const std::function<double(double, double)>& height, double s
       std::vector<Index> nodes;
       for (int shot = 0; shot < shots; ++shot) {
         const double speed = (done + shots * u(random)) / count;  // 0 slowest, 1 fastest of all
-        const double per_step = gap > 0.0 ? gap * std::pow(10.0, 3.0 * speed) : std::pow(10.0, -3.0 + 3.3 * speed);
+        const double fastest = gap > 0.0 ? gap * std::pow(10.0, 3.0 * speed) : std::pow(10.0, -3.0 + 3.3 * speed);
+        const double per_step = std::sqrt(5.0 * hhk) * fastest;
         const Vec3 aim{2 * u(random) - 1, 2 * u(random) - 1, 0};
         const Vec3 direction = normalized({u(random) - 0.5, u(random) - 0.5, -1.0});
         const Vec3 start = aim - (1.0 + u(random)) * per_step * direction;
-        nodes.push_back(host.add({start.x, start.y, start.z + height(start.x, start.y) + gap + 0.05}, 1.0, per_step * direction));
+        nodes.push_back(host.add({start.x, start.y, start.z + height(start.x, start.y) + gap + 0.05 + slack}, 1.0, per_step * direction));
       }
       Options o;
       o.gap = gap;
       o.rules = rules;
       o.stiffness_scale = 1.0;
-      // The host's step of 1 is stable for the stiffest part of the law: h^2 k / m = 0.2 there.
-      const double k = gap > 0.0 ? 0.002 : 0.2;
+      const double k = gap > 0.0 ? 0.01 * hhk : hhk;
       Interface i = Interface::nodes_to_surface(nodes, std::vector<double>(nodes.size(), 2.0 * k), Surface(main), o);
       set_stiffness(i, 1, main.size(), 2.0 * k);
       const std::vector<Vec3> came(host.v.begin() + static_cast<std::ptrdiff_t>(first), host.v.end());
@@ -218,8 +219,7 @@ inline Shots shoot(const std::function<double(double, double)>& height, double s
             const double normal_speed = v.z - slope_x * v.x - slope_y * v.y;
             const bool over = std::max(std::abs(end.x), std::abs(end.y)) < 12.0;  // else it slid off the border
             const bool behind = over && end.z < height(end.x, end.y) - slack;
-            if (over && !behind && normal_speed <= 0.0)
-              continue;  // on its way to the other side of a fold, or through: the next step tells
+            if (over && normal_speed <= 0.0) continue;  // on its way to the other side of a fold, or through: the next step tells
             --flying;
             state[s] = behind ? left_behind : left;
           }
