@@ -68,6 +68,7 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
       two_passes_(!one_pass),
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       states_(held_nodes),
+      covered_(held_nodes, 0.0),
       in_front_(held_nodes, 0),
       quiet_(held_nodes, awake),
       slips_(held_nodes, 1) {}
@@ -142,7 +143,9 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
         s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
     return std::max(reach(), std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider + further);
   };
-  const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_, executor_);
+  const auto covers = [&](Index i) { return covered_[at(i)] = reach_of(i); };
+  const bool renewed = candidates_.update(held, surface, motion, covers, skin_, stale_ || outgrown_, executor_);
+  outgrown_ = false;
   if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);
   stale_ = false;
   mean_step_ = motion.mean;
@@ -188,6 +191,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
   sums.reactions.clear();
   for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
   sums.further.clear();
+  sums.outgrown = false;
   if (group_asleep(scene, number)) return;
   NodeStates::Loan loan(states_, number, work.scratch);
   std::array<Touch, at(group)>& touches = work.touches;
@@ -219,7 +223,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
       const Index i = nodes[k];
       if (lane[k] == none) continue;
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
-      if (ordinary && alone(batch, lane[k], i, strongest(held, surface, i))) continue;
+      if (ordinary && alone(batch, lane[k], i, strongest(held, surface, i), sums)) continue;
       Touch& touch = touches[k];
       measure(scene, i, touch, sums);
       any = any || touch.contact;
@@ -321,6 +325,7 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   for (std::size_t g = added; g < groups_.size(); ++g) add_reactions(groups_[g], surface, surface_loads);
   for (const GroupSums& sums : groups_) {
     totals += sums.totals;
+    outgrown_ = outgrown_ || sums.outgrown;
     in_contact_.insert(in_contact_.end(), sums.in_contact.begin(), sums.in_contact.end());
     crossed_.insert(crossed_.end(), sums.crossed.begin(), sums.crossed.end());
     lost_.insert(lost_.end(), sums.lost.begin(), sums.lost.end());

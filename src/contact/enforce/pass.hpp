@@ -127,6 +127,7 @@ class Pass {
     PassTotals totals;
     std::vector<Reaction> reactions;
     std::vector<Index> in_contact, crossed, lost;
+    bool outgrown = false;
     std::vector<Further> further;
   };
   struct Scene {
@@ -159,6 +160,7 @@ class Pass {
   bool two_passes_ = false;
   bool half_of_facet_ = false;
   bool stale_ = true;
+  bool outgrown_ = false;  ///< a held node went deeper than its list was made for
   bool started_ = false;
   bool committed_ = false;  ///< the states before are of this step, not those after
   bool settled_ = false;    ///< initial penetrations are dealt with
@@ -168,6 +170,7 @@ class Pass {
   std::vector<double> widening_;  ///< per facet: 1 / its length at the start
   double longest_ = 0.0;          ///< length of the largest facet at the start
   NodeStates states_;
+  std::vector<double> covered_;  ///< of every held node: distance within which its list has every facet
   std::vector<Tracked> tracked_;
   std::vector<Index> in_contact_, crossed_, lost_;
   std::vector<GroupSums> groups_;
@@ -238,6 +241,8 @@ class Pass {
   [[nodiscard]] double reach() const {
     return std::max({options_.gap, largest_depth_, skin_ + stronger_within * longest_}) + flight_share * size_;
   }
+  /// A held node whose facets are asked for within this distance may soon need more than its list has.
+  [[nodiscard]] bool outgrows(Index i, double distance) const { return distance + flight_share * size_ > covered_[at(i)]; }
   /// The same for all nodes of a group at once, or false.
   [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
   /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
@@ -256,7 +261,7 @@ class Pass {
   void run_batch(const Scene& scene, HeldBatch& batch) const;
   void add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const;
   /// No other facet can be as near as the one that holds the node, nor store more; `strongest` the largest stiffness of the node.
-  [[nodiscard]] bool alone(const HeldBatch& batch, int lane, Index i, double strongest) const;
+  [[nodiscard]] bool alone(const HeldBatch& batch, int lane, Index i, double strongest, GroupSums& sums) const;
   void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
   void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                    GroupSums& sums);

@@ -177,7 +177,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   double made = 0.0;  // energy that the pair has made, before this cycle's force
   // Along the normal that it was taken along before: where the normal turns, that is no acceleration.
   const double rate_along_last =
-      before.held != 0 ? motion.rate * dot(touch.normal, before.normal) + dot(motion.tangential_velocity, before.normal) : 0.0;
+      before.held != 0 && closest() ? dot(motion.rate * touch.normal + motion.tangential_velocity, before.normal) : motion.rate;
   if (before.held != 0) {
     const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, rate_along_last);
     totals.stepped += by_step;
@@ -210,21 +210,25 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
   // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
   // comes from in front deeper than its motion along the normal.
-  const bool over_fold = fresh ? moved_in <= penetration && before.in_front != 0 : dot(before.normal, touch.normal) < turns;
+  const bool over_fold = closest() && rules.switch_correction &&
+                         (fresh ? moved_in <= penetration && before.in_front != 0 : dot(before.normal, touch.normal) < turns);
   bool settled = before.light == NodeState::settled;
-  const bool light = lightness > light_pair || before.light != 0 || (over_fold && rules.switch_correction);
+  const bool light = lightness > light_pair || before.light != 0 || over_fold;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
     const double coming = foreseen_step(h_before, host.dt);
     const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
-    double force = switched.force;
-    stored = switched.stored;
+    // Where the force has other parts than the law's at this depth (strips that widen, facets that store more), they go with it.
+    const double lawful = touch.pair.stiffness * law_.force(penetration);
+    const double held_by_law = touch.pair.stiffness * law_.potential(penetration);
+    double force = switched.force * (lawful > 0.0 ? touch.pair.magnitude / lawful : 1.0);
+    stored = switched.stored * (held_by_law > 0.0 ? touch.pair.potential / held_by_law : 1.0);
     // A light pair settles its account when it opens within the coming step, which may grow where this contact is what holds it.
     const double longest = step_growth * host.dt;
     const double leaves = motion.rate + 0.5 * (host.dt + longest) * (inverse_mass * touch.pair.magnitude + others);
     if (light && leaves * longest > penetration && grown == 0.0 && (fresh ? moved_in > penetration : before.reckoned != 0)) {
-      settled = true;
+      settled = closest();
       force = last_force({motion.rate, host.dt, coming, inverse_mass, others, -made});
       const double bound = touch.pair.stiffness * law_.force(4.0 * coming * leaves);
       force = std::clamp(force, switched.force - bound, switched.force + bound);
@@ -237,9 +241,9 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       }
     } else if (settled && motion.rate > 0.0) {
       // It has not left but met another facet: what that would give back and was not taken before is not there.
-      const double share = std::clamp(-made / touch.pair.potential, 0.0, 1.0);
-      force = share * touch.pair.magnitude;
-      stored = share * touch.pair.potential;
+      const double left = std::clamp(-made / touch.pair.potential, 0.0, 1.0);
+      force = left * touch.pair.magnitude;
+      stored = left * touch.pair.potential;
     }
     factor = force / touch.pair.magnitude;
   }
@@ -258,7 +262,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (after.reckoned != 0) {
     after.last = {touch.weight, touch.facet};
     const Vec3 step = host.dt * (motion.rate * touch.normal + motion.tangential_velocity);
-    after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
+    if (!fresh || closest()) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
   }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {

@@ -208,6 +208,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   const double top = strongest(held, surface, i);
   const double beyond = reach_of_stronger(touch.pair.stiffness, top, touch.penetration);
   const double reach = was_held ? 1e300 : std::max(options_.gap, largest_depth_);  // what every list holds
+  if (outgrows(i, distance + beyond)) sums.outgrown = true;
   const double equal = equally_near * distance;
   touch.first_further = sums.further.size();
   for (const Candidates::Entry& entry : candidates_.of(i)) {

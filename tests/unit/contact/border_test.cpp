@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "contact/enforce/law.hpp"
+#include "contact/search/nearest.hpp"
 #include "unit/contact/bench_host.hpp"
 
 namespace abut::contact {
@@ -84,6 +86,140 @@ TEST(Border, force_in_a_widened_strip_is_the_gradient) {
   std::printf("  %d places, force against the gradient: %.1e of the largest force\n", looked, worst);
   EXPECT_GE(looked, 12);
   EXPECT_LT(worst, 2e-6);
+}
+
+// Inward folds of curved surfaces near free borders and over a change of stiffness: where a facet stores more than the nearest one, the
+// force on the node, and those on the corners of both facets, are minus the gradient of what is stored.
+TEST(Border, force_of_a_facet_that_stores_more_is_the_gradient) {
+  const std::vector<std::function<double(double, double)>> shapes{
+      [](double x, double y) { return 0.2 * x * x + 0.15 * y * y; }, [](double x, double y) { return 0.15 * x * x - 0.2 * y * y; },
+      [](double x, double y) { return -0.2 * x * x - 0.1 * x * y - 0.2 * y * y; }, [](double x, double) { return 0.4 * std::abs(x); }};
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  double worst = 0.0;
+  int looked = 0;
+  for (const double gap : {0.0, 0.2}) {
+    for (const Law law : {Law::constant, Law::stiffening}) {
+      if (gap == 0.0 && law == Law::stiffening) continue;
+      for (const auto& height : shapes) {
+        Host host;
+        const auto facets = grid(host, 4, 4, -1.5, 1.5, -1.5, 1.5, height);
+        std::vector<double> stiffness(facets.size());
+        for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 4 < 2 ? 1.0 : 4.0;
+        const auto n = static_cast<std::size_t>(host.add({}, 1.0));
+        Options o = still(gap);
+        o.rules.law = law;
+        const auto make = [&] {
+          Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), o);
+          i.set_surface(1, {stiffness, {}, {}});
+          return i;
+        };
+        Interface walk = make();
+        std::vector<Vec3> x = host.x;
+        for (int step = 0; step < 3000; ++step) {
+          // Near the folds between facets.
+          const double along = 1.66 * std::sin(0.021 * step + 0.3), across = 0.75 * (step / 300 % 3 - 1) + 0.03 * u(random);
+          const double px = step % 600 < 300 ? across : along, py = step % 600 < 300 ? along : across;
+          x[n] = {px, py, height(px, py) + (gap > 0.0 ? 0.1 + 0.08 * u(random) : -0.08 + 0.07 * u(random))};
+          host.place(walk, x);
+          const auto loaded = std::count_if(host.f.begin(), host.f.end(), [](const Vec3& f) { return squared_norm(f) > 0.0; });
+          if (host.last.in_contact == 0 || loaded <= 5) continue;  // only the nearest facet acts
+          const auto history = walk.history();
+          const auto stored = [&](const std::vector<Vec3>& at) {
+            Interface probe = make();
+            probe.restore(history);
+            Host h = host;
+            h.x = at;
+            h.contact(probe);
+            return h;
+          };
+          const Host here = stored(host.x);
+          double scale = 0.0;
+          for (const Vec3& f : here.f) scale = std::max(scale, norm(f));
+          double wrong = 0.0;
+          constexpr double d = 1e-7;
+          for (std::size_t k = 0; k < host.x.size(); ++k) {
+            if (squared_norm(here.f[k]) == 0.0) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+              std::vector<Vec3> plus = host.x, minus = host.x;
+              plus[k][axis] += d;
+              minus[k][axis] -= d;
+              const double slope = (stored(plus).last.elastic - stored(minus).last.elastic) / (2 * d);
+              wrong = std::max(wrong, std::abs(here.f[k][axis] + slope) / scale);
+            }
+          }
+          worst = std::max(worst, wrong);
+          ++looked;
+        }
+      }
+    }
+  }
+  std::printf("  %d places, force against the gradient: %.1e of the largest force\n", looked, worst);
+  EXPECT_GE(looked, 100);
+  EXPECT_LT(worst, 1e-5);
+}
+
+// The same surfaces: what is stored is, word for word (docs/theory/contact.md, 3), the largest that any facet has for the node.
+TEST(Border, stored_energy_is_the_largest_of_any_facet) {
+  const std::vector<std::function<double(double, double)>> shapes{
+      [](double x, double y) { return 0.2 * x * x + 0.15 * y * y; }, [](double x, double y) { return 0.15 * x * x - 0.2 * y * y; },
+      [](double x, double) { return 0.4 * std::abs(x); }};
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const double gap = 0.2;
+  double worst = 0.0;
+  int compared = 0, other = 0;
+  for (const auto& height : shapes) {
+    Host host;
+    const auto facets = grid(host, 4, 4, -1.5, 1.5, -1.5, 1.5, height);
+    std::vector<double> stiffness(facets.size());
+    for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 4 < 2 ? 1.0 : 4.0;
+    const auto n = static_cast<std::size_t>(host.add({}, 1.0));
+    for (int shot = 0; shot < 3000; ++shot) {
+      const double px = shot % 2 == 0 ? 0.75 * (shot % 3 - 1) + 0.05 * u(random) : 1.7 * u(random), py = 1.7 * u(random);
+      host.x[n] = {px, py, height(px, py) + 0.1 + 0.09 * u(random)};
+      Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), still(gap));
+      i.set_surface(1, {stiffness, {}, {}});
+      host.contact(i);
+      Side side(Surface(facets), true);
+      side.set({stiffness, {}, {}}, false);
+      side.gather(host.x);
+      // The nearest point, and of every facet T, K and P*; a free node in front: strips are not widened.
+      std::vector<Measure> all;
+      const Measure* nearest = nullptr;
+      for (Index f = 0; f < side.facet_count(); ++f) all.push_back(signed_measure(side, f, closest_point(side.patch(f), host.x[n]), host.x[n]));
+      for (const Measure& m : all) {
+        if (nearest == nullptr || m.closest.squared_distance < nearest->closest.squared_distance) nearest = &m;
+      }
+      if (nearest->distance < 0.0) continue;
+      const NormalLaw law{gap};
+      const double p = gap - nearest->distance;
+      double most = 0.0, of_nearest = 0.0;
+      for (const Measure& m : all) {
+        if (p <= 0.0 || m.closest.beyond || m.distance < 0.0 || dot(m.normal, nearest->normal) < -0.5) continue;
+        double k1 = 0.0, low = 1e300, high = 0.0;
+        for (std::size_t c = 0; c < 4; ++c) {
+          const double k = side.corner_stiffness(side.surface().local()[at(m.facet)][c]);
+          k1 += m.closest.weight[c] * k;
+          low = std::min(low, k);
+          high = std::max(high, k);
+        }
+        k1 = std::clamp(k1, low, high);
+        const double kappa = taper(side.patch(m.facet), m.closest.s, m.closest.t).value * k1 / (k1 + 1.0);
+        const double less = m.distance - nearest->distance;
+        const double psi = kappa * law.potential(p - less * (1.0 + p / (0.25 * std::sqrt(side.facet_area(m.facet)))));
+        most = std::max(most, psi);
+        if (&m == nearest) of_nearest = psi;
+      }
+      ++compared;
+      other += most > 1.001 * of_nearest ? 1 : 0;
+      worst = std::max(worst, std::abs(host.last.elastic - most));
+    }
+  }
+  std::printf("  %d nodes, another facet than the nearest for %d; differs by %.1e\n", compared, other, worst);
+  EXPECT_GT(compared, 5000);
+  EXPECT_GT(other, 100);
+  EXPECT_LT(worst, 1e-14);
 }
 
 // The force of a node at a tie (above an edge and a corner of several facets, in a groove, behind the top of a pyramid) does not depend on

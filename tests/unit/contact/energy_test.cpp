@@ -95,12 +95,9 @@ TEST(ClosedPath, gives_its_work_back) {
           const double theirs = test::net_of_lap(c, plain, gap, p, 5000);
           std::printf("  %-34s gap %.1f P %.2f %s: net/CE %.2e (plain %.2e)\n", c.name.c_str(), gap, p,
                       law == Law::constant ? "const" : "stiff", net, theirs);
-          // On an inward fold the contact point jumps along the surface, and with it an interpolated stiffness: what is left of the
-          // energy jump there is of second order (fold angle x change of stiffness), measured and bounded here.
-          const bool both = &c == &cases.back();
-          if (!both) worst = std::max(worst, net);
+          worst = std::max(worst, net);
           EXPECT_GT(net, 0.0) << c.name;  // it was in contact
-          EXPECT_LE(net, both ? 6e-3 : 1e-3) << c.name;
+          EXPECT_LE(net, 1e-3) << c.name;
         }
       }
     }
@@ -108,9 +105,9 @@ TEST(ClosedPath, gives_its_work_back) {
   std::printf("  worst %.2e\n", worst);
 }
 
-// A known limit: over the border of a curved surface the strips of neighbouring border facets do not meet, and the stored energy jumps
-// where the nearest one changes. The demand is 1e-3; docs/theory/contact.md, 3.
-TEST(ClosedPath, over_the_border_of_a_curved_surface_is_a_known_limit) {
+// Over the border of a curved surface, where two strips that are equally near have faded differently.
+TEST(ClosedPath, over_the_border_of_a_curved_surface) {
+  double worst = 0.0;
   const std::vector<ClosedPathCase> cases{
       {"saddle, y border", [](double x, double y) { return 0.1 * x * x - 0.1 * y * y; }, false, 0.1, 1.9, 1.2, 1.2},
       {"dome, x border", [](double x, double y) { return std::sqrt(25.0 - x * x - y * y) - 5.0; }, false, 1.7, 0.05, 1.2, 1.2},
@@ -122,11 +119,13 @@ TEST(ClosedPath, over_the_border_of_a_curved_surface_is_a_known_limit) {
         standard.law = gap > 0.0 ? Law::stiffening : Law::constant;
         const double net = test::net_of_lap(c, standard, gap, p, 40000);
         std::printf("  %-18s gap %.1f P %.2f: net/CE %.2e\n", c.name.c_str(), gap, p, net);
+        worst = std::max(worst, net);
         EXPECT_GT(net, 0.0) << c.name;
-        EXPECT_LE(net, 0.02) << c.name;
+        EXPECT_LE(net, 1e-3) << c.name;
       }
     }
   }
+  std::printf("  worst %.2e\n", worst);
 }
 
 // The same for a patch of nodes with facets of its own, both passes.
@@ -144,14 +143,48 @@ TEST(ClosedPath, patch_gives_its_work_back) {
         const double theirs = test::net_of_patch(c, plain, 0.2, 0.2 * part, 1000);
         std::printf("  %-34s P %.2f Gap %s: net/CE %.2e (plain %.2e)\n", c.name.c_str(), part, law == Law::constant ? "const" : "stiff",
                     net, theirs);
-        const bool both = &c == &cases.back();  // as above
-        if (!both) worst = std::max(worst, net);
+        worst = std::max(worst, net);
         EXPECT_GT(net, 0.0) << c.name;
-        EXPECT_LE(net, both ? 3e-3 : 1e-3) << c.name;
+        EXPECT_LE(net, 1e-3) << c.name;
       }
     }
   }
   std::printf("  worst %.2e\n", worst);
+}
+
+// Random surfaces, places, depths and changes of stiffness: where a lap of 20000 steps keeps more than 1e-3, one of 16 times as many steps
+// does not: a kink costs its force jump times the step, a jump of the energy would stay.
+TEST(ClosedPathFull, random_laps_give_their_work_back) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  double worst = 0.0, finer = 0.0;
+  int repeated = 0;
+  for (int lap = 0; lap < 400; ++lap) {
+    const double bend = 0.03 + 0.12 * u(random), angle = 10.0 + 80.0 * u(random);
+    const std::vector<std::function<double(double, double)>> heights{
+        [bend](double x, double y) { return bend * (x * x - y * y); },
+        [bend](double x, double y) { return -bend * (x * x + y * y); },
+        [bend](double x, double y) { return bend * (x * x + y * y); },
+        [angle](double x, double) { return test::fold_height(x, angle, true); },
+        [angle](double x, double) { return test::fold_height(x, angle, false); },
+        [bend](double x, double y) { return bend * (std::sin(2 * x + 1.7 * y) + std::cos(2.3 * y - 1.1 * x)); }};
+    const bool jump = u(random) < 0.5;
+    const double gap = u(random) < 0.35 ? 0.0 : 0.2;
+    const double p = gap > 0.0 ? gap * (0.1 + 0.8 * u(random)) : 0.02 + 0.13 * u(random);
+    Rules rules = Rules::standard();
+    rules.law = gap > 0.0 && u(random) < 0.5 ? Law::stiffening : Law::constant;
+    const ClosedPathCase c{"", heights[static_cast<std::size_t>(lap) % heights.size()], jump, 4 * u(random) - 2, 4 * u(random) - 2,
+                           0.6 + 0.8 * u(random), 0.6 + 0.8 * u(random)};
+    double net = test::net_of_lap(c, rules, gap, p, 20000);
+    worst = std::max(worst, net);
+    if (net > 1e-3) {
+      ++repeated;
+      net = test::net_of_lap(c, rules, gap, p, 320000);
+    }
+    finer = std::max(finer, net);
+    EXPECT_LE(net, 1e-3) << lap;
+  }
+  std::printf("  worst of 20000 steps %.2e; %d laps repeated with 320000, worst then %.2e\n", worst, repeated, finer);
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ struct Shots {
 /// @param height  of the surface, facets of size 1
 /// @param slack   the facets lie above it by up to this
 /// @param count   shots per half
-/// @param hhk     h^2 K/m of the stiffest part of the law
+/// @param hhk     h^2 K/m of the stiffest part of the law; shots at softer springs are slower, so that they go as deep
 inline Shots shoot(const std::function<double(double, double)>& height, double slack, int count, unsigned seed,
                    const Rules& rules = Rules::standard(), double hhk = 0.2) {
   constexpr int together = 250;
@@ -201,7 +201,7 @@ inline Shots shoot(const std::function<double(double, double)>& height, double s
       enum State : char { coming, touching, left, left_behind };
       std::vector<char> state(nodes.size(), coming);
       int flying = shots;
-      for (int step = 0; step < 1000 && flying > 0; ++step) {
+      for (int step = 0; step < 4000 && flying > 0; ++step) {
         host.step(i, 1.0);
         result.caught += host.last.crossed;
         std::vector<char> touches(host.x.size(), 0);
@@ -236,6 +236,24 @@ inline Shots shoot(const std::function<double(double, double)>& height, double s
     }
   }
   return result;
+}
+
+struct Target {
+  const char* name;
+  std::function<double(double, double)> height;
+  double slack;
+};
+
+inline std::vector<Target> folds() {
+  const auto fold = [](double degrees, double sign) {
+    const double slope = std::tan(degrees * std::acos(-1.0) / 360.0);
+    return [slope, sign](double x, double) { return sign * slope * std::abs(x); };
+  };
+  const auto rough = [](double x, double y) { return 0.05 * std::sin(3 * x + 1.7 * y) + 0.04 * std::cos(2.3 * y - 1.1 * x); };
+  const auto pit = [](double x, double y) { return 0.4 * std::max(std::abs(x), std::abs(y)); };
+  return {{"fold 10 convex", fold(10, -1), 1e-9}, {"fold 10 concave", fold(10, 1), 1e-9}, {"fold 45 convex", fold(45, -1), 1e-9},
+          {"fold 45 concave", fold(45, 1), 1e-9}, {"fold 90 convex", fold(90, -1), 1e-9}, {"fold 90 concave", fold(90, 1), 1e-9},
+          {"pit", pit, 0.3},                      {"rough", rough, 0.1}};
 }
 
 /// z = curvature (x^2 + y^2): in front of its facets, which lie above it by up to a quarter of the curvature, is well in front of this.
