@@ -340,6 +340,7 @@ void OneSided::save(HistoryWriter& out) const {
   out.put(stepped_work_);
   for (std::size_t k = 0; k < 2; ++k) {
     out.put(loads_[k].work);
+    out.put(mean_velocity_[k]);
     out.put_all(loads_[k].force_before);
     if (committed_) {
       out.put_all(side_[k].x());
@@ -364,6 +365,7 @@ void OneSided::load(HistoryReader& in) {
   for (std::size_t k = 0; k < 2; ++k) {
     loads_[k].clear(0, loads_[k].loaded.size());  // an evaluation that was not committed leaves nothing behind
     in.get(loads_[k].work);
+    in.get(mean_velocity_[k]);
     in.get_all(loads_[k].force_before);
     in.get_all(loads_[k].x_before);
     std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), static_cast<std::uint8_t>(SideLoads::now | SideLoads::before));
@@ -371,7 +373,6 @@ void OneSided::load(HistoryReader& in) {
   for (Pass& pass : pass_) pass.load(in);
   stepped_ = false;
   committed_ = false;
-  mean_velocity_ = {};
 }
 
 }  // namespace abut::contact

@@ -90,9 +90,8 @@ class Pass {
     bool contact = false;
     bool fresh_hit = false;
     bool widens = false;
-    bool lost = false;          ///< was held, and is now beyond the end of a free border, or went through and over it in one step
-    bool was_in_front = false;  ///< at the last measurement
-    bool far = false;           ///< cannot touch now or in the coming step: not measured
+    bool lost = false;  ///< was held, and is now beyond the end of a free border, or went through and over it in one step
+    bool far = false;   ///< cannot touch now or in the coming step: not measured
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;

@@ -90,8 +90,8 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   const double speed = norm(v - dot(v, n) * n) + (fastest - slowest) / side * std::abs(distance);
   const double way = 1.5 * step_growth * host.dt * speed;
   if (norm(r - distance * n) > way) return 0.0;
-  // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
-  if (norm(r) > (touch.was_in_front ? std::min(reach(), options_.gap + way) : reach())) return 0.0;
+  // Not further than every list reaches: what is said must not depend on how old the lists are.
+  if (norm(r) > reach()) return 0.0;
   const double width = (1.0 - border_flat) * border_strip * side;
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);

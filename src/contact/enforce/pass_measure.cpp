@@ -19,14 +19,6 @@ Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   return patch;
 }
 
-/// A point in front of the facet's mean plane is at least this far from the facet, which lies within the hull of its corners.
-double height_over(const Patch& patch, const Vec3& x) {
-  const Vec3 n = normalized(cross(patch.x[2] - patch.x[0], patch.x[3] - patch.x[1]));
-  double least = 1e300;
-  for (const Vec3& corner : patch.x) least = std::min(least, dot(n, x - corner));
-  return least;
-}
-
 }  // namespace
 
 double Pass::squared_motion(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
@@ -44,10 +36,17 @@ bool Pass::far(const HostState& host, const Side& held, const Side& surface, con
   double due = 1e300;
   for (Candidates::Entry& entry : candidates_.of(i)) {
     if (!surface.active(entry.facet)) continue;
-    if (!clears(motion, entry.due)) {
-      if (surface.borders(entry.facet) != 0) return false;
-      entry.due = std::max(entry.due, height_over(surface.patch(entry.facet), x) + candidates_.clock());
-      if (!clears(motion, entry.due)) return false;
+    const bool border = surface.borders(entry.facet) != 0;
+    const bool clear = clears(motion, entry.due);
+    if (border && !clear) return false;
+    if (border || !clear) {
+      const double by_plane = height_over(surface.patch(entry.facet), x) + candidates_.clock();
+      if (!clears(motion, by_plane)) return false;
+      if (border) {
+        due = std::min(due, by_plane);
+      } else {
+        entry.due = std::max(entry.due, by_plane);
+      }
     }
     due = std::min(due, entry.due);
   }
@@ -57,8 +56,7 @@ bool Pass::far(const HostState& host, const Side& held, const Side& surface, con
 
 bool Pass::near(const HostState& host, const Side& held, const SideLoads& held_loads, Index i, double distance) const {
   constexpr double rounding = 1.0 + 1e-9;  // of the clock: nobody is near whom far() passed over
-  return std::abs(distance) <= reach() &&
-         !clears(squared_motion(host, held, held_loads, i), rounding * std::abs(distance) + candidates_.clock());
+  return distance <= reach() && !clears(squared_motion(host, held, held_loads, i), rounding * distance + candidates_.clock());
 }
 
 Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
@@ -115,11 +113,12 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   bool meets = false;
   double gap = options_.gap;
   const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;
-  touch.was_in_front = in_front_[at(i)] != 0;
   in_front_[at(i)] = in_front ? 1 : 0;
+  if (in_front && !was_held) candidates_.limit_nearest_due(i, lowest_over_borders(surface, candidates_, i, x) + candidates_.clock());
   // What is said and remembered must not depend on how old the lists are: it is of facets that every list has.
-  if (was_held || (m.found() && near(host, held, held_loads, i, m.distance))) after.in_front = in_front ? 1 : 0;
-  if (!was_held && std::abs(m.distance) > reach()) m = {};
+  const double away = m.found() ? std::sqrt(m.closest.squared_distance) : 0.0;
+  if (was_held || (m.found() && near(host, held, held_loads, i, away))) after.in_front = in_front ? 1 : 0;
+  if (!was_held && away > reach()) m = {};
   if (m.found()) {
     take(m);
     gap = gap_of(m.distance, after);

@@ -250,6 +250,13 @@ Fall strip(double overshoot, double width, double wider) {
 
 }  // namespace
 
+double height_over(const Patch& patch, const Vec3& x) {
+  const Vec3 n = normalized(cross(patch.x[2] - patch.x[0], patch.x[3] - patch.x[1]));
+  double least = 1e300;
+  for (const Vec3& corner : patch.x) least = std::min(least, dot(n, x - corner));
+  return least;
+}
+
 ClosestPoint closest_point(const Patch& patch, const Vec3& x) {
   return patch.triangle ? closest_on_triangle(patch, x) : closest_on_quad(patch, x);
 }

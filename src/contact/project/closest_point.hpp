@@ -47,6 +47,10 @@ struct ClosestPoint {
   std::array<double, 4> weight{};  ///< H_i, sum 1
 };
 
+/// Least height of x over the corners, along the normal of their mean plane: a point in front of a facet without strips, which lies within
+/// the hull of its corners, is at least this far from it.
+[[nodiscard]] double height_over(const Patch& patch, const Vec3& x);
+
 /// Closest point of `patch` (with its strips) to x.
 [[nodiscard]] ClosestPoint closest_point(const Patch& patch, const Vec3& x);
 

@@ -21,6 +21,15 @@ namespace {
 constexpr double worth_keeping = 0.75;  // of the skin: lists that would have to be looked at again at once are made anew
 }
 
+double lowest_over_borders(const Side& surface, const Candidates& lists, Index node, const Vec3& x) {
+  double least = 1e300;
+  for (const Candidates::Entry& entry : lists.of(node)) {
+    if (surface.borders(entry.facet) == 0 || !surface.active(entry.facet)) continue;
+    least = std::min(least, height_over(surface.patch(entry.facet), x));
+  }
+  return least;
+}
+
 bool Candidates::update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin,
                         bool force, const Executor& executor) {
   if (!force && !first_.empty()) {
@@ -95,6 +104,7 @@ void Candidates::list(const Side& held, const Side& surface, Index node, double 
     if (away > limit) return;
     entries.push_back({f, false, away});  // the clock shows 0
     nearest_[at(node)] = std::min(nearest_[at(node)], away);
+    if (surface.borders(f) != 0) nearest_[at(node)] = std::min(nearest_[at(node)], height_over(surface.patch(f), x));
   });
   std::sort(entries.begin() + begin, entries.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });
 }

@@ -1,6 +1,7 @@
 // Which facets each held node must be measured against: lists from a box tree, kept until something has moved by a skin.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -42,9 +43,11 @@ class Candidates {
     return std::span(entries_).subspan(at(first_[at(node)]), at(first_[at(node) + 1] - first_[at(node)]));
   }
   [[nodiscard]] double clock() const { return clock_; }
-  /// Distance of the node's nearest listed facet + the clock when it was measured (see Entry::due); 1e300: none listed.
+  /// Distance of the node's nearest listed facet + the clock when it was measured (see Entry::due); 1e300: none listed. Of facets at a free
+  /// border also the height over their plane: whoever goes around it does not stay in front unseen.
   [[nodiscard]] double nearest_due(Index node) const { return nearest_[at(node)]; }
   void set_nearest_due(Index node, double due) { nearest_[at(node)] = due; }
+  void limit_nearest_due(Index node, double due) { nearest_[at(node)] = std::min(nearest_[at(node)], due); }
   /// Of all active facets in the node's list but `facet`, the nearest one: when the first of them is due.
   struct Others {
     Index facet = no_index;  ///< no_index: unknown
@@ -78,6 +81,9 @@ class Candidates {
   void make(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, const Executor& executor);
   void list(const Side& held, const Side& surface, Index node, double reach, double skin, std::vector<Entry>& entries);
 };
+
+/// Least height of a point over the planes of those of a node's listed facets that have free borders; 1e300: none.
+[[nodiscard]] double lowest_over_borders(const Side& surface, const Candidates& lists, Index node, const Vec3& x);
 
 /// Box of a facet with its strips.
 [[nodiscard]] Bounds facet_bounds(const Patch& patch);
