@@ -1,12 +1,13 @@
-// The report in a real browser, without a network: node browser/report.test.mjs REPORT.html FINDINGS.html [SCREENSHOTS [chromium|firefox]]
+// The report in a real browser, without a network: node browser/report.test.mjs REPORT.html FINDINGS.html KNOWN.html KNOWN.json [SCREENSHOTS [chromium|firefox]]
 //   REPORT    of examples/decks/plate_drop
 //   FINDINGS  of examples/decks/findings/normals_away, whose contact surfaces look away from each other
+//   KNOWN     of the deck that tests/report/flat_plates.py writes, and the contact values that it has in closed form
 // Exit status 77 with a message when there is no such browser. Screenshots stay in the folder.
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 
-const [report, findings, folder = "screenshots", name = "chromium"] = process.argv.slice(2);
+const [report, findings, knownReport, knownValues, folder = "screenshots", name = "chromium"] = process.argv.slice(2);
 let tools;
 try {
   tools = { ...(await import("./browser.mjs")), ...(await import("./png.mjs")) };
@@ -289,6 +290,82 @@ test("follow a finding: its segments are marked on the mesh and in the frame", a
   assert.equal(edge, 0, "they lie inside the frame");
   await page.locator(".finding.error").first().click();
   assert.equal(share(await picture(page, "finding-gone"), magenta), 0);
+  assert.deepEqual(problems, []);
+});
+
+const known = JSON.parse(readFileSync(knownValues, "utf8"));
+/** Clicks on a node that is seen. @returns what the panel says of it: {label: text} */
+async function pickNode(id) {
+  await settle(page);
+  const at = await page.evaluate((n) => window.abut.picture.view.project(window.abut.picture.nodeOf(n)), id);
+  await page.mouse.click(at.x + 1, at.y + 1);
+  await page.waitForFunction((n) => document.querySelector("[data-picked-node]")?.textContent === String(n), id);
+  const rows = await page.locator(".picked table").first().locator("tr").allInnerTexts();
+  await page.keyboard.press("Escape");
+  return Object.fromEntries(rows.map((row) => row.split("\t").map((cell) => cell.trim())));
+}
+const units = { "Gap to the other surface": "m", Penetration: "m", "Displacement Z": "m", "Velocity X": "m/s" };
+function checkValue(text, label, value, where) {
+  const [number, unit = ""] = text.replaceAll("−", "-").split(" ");
+  assert.equal(unit, units[label] ?? "Pa", `${where}: unit of ${label}`);
+  const zero = unit === "Pa" ? 1 : 1e-9; // five digits are shown, and a state's range has 16 bits
+  assert.ok(Math.abs(Number(number) - value) < 1e-4 * Math.abs(value) + zero, `${where}: ${label} is ${text}, and should be ${value}`);
+}
+
+test("known values: gap, penetration, pressure, shear, stick and slip on flat plates are those of the closed form", async () => {
+  await page.context().close();
+  ({ page, problems } = await openReport(knownReport, { browser }));
+  await page.waitForFunction(() => window.abut.picture.view.drawCount > 0);
+  for (const { frame, what, state, values, moves = {} } of known.frames) {
+    for (const [side, id, hidden] of [
+      ["upper", known.upper, 0],
+      ["lower", known.lower, 1],
+    ]) {
+      await page.evaluate(([f, part]) => window.abut.state.set({ frame: f, hiddenParts: new Set([part]) }), [frame, hidden]);
+      const shows = await pickNode(id);
+      for (const [label, value] of Object.entries({ ...values, ...(side === "upper" ? moves : {}) }))
+        checkValue(shows[label] ?? "nothing", label, value, `${what}, ${side} plate`);
+      assert.equal(shows["Stick or slip"], state, `${what}, ${side} plate`);
+    }
+  }
+  await page.evaluate(() => window.abut.state.set({ frame: 0, hiddenParts: new Set() }));
+});
+
+test("normals: blue from the first surface upwards, orange from the second downwards, 0.55 of a segment long", async () => {
+  const blue = (r, g, b) => r < 90 && g > 90 && b > 190;
+  const orange = (r, g, b) => r > 200 && g > 60 && g < 140 && b < 70;
+  const rows = (image, colour) => {
+    let [top, bottom, count] = [image.height, -1, 0];
+    for (let y = 0; y < image.height; y++)
+      for (let x = 0; x < image.width; x++)
+        if (colour(...image.pixel(x, y))) [top, bottom, count] = [Math.min(top, y), Math.max(bottom, y), count + 1];
+    return { top, bottom, count };
+  };
+  await page.locator(".stage canvas").focus();
+  await page.keyboard.press("1"); // along x: both plates are lines
+  await page.evaluate(() => document.activeElement.blur()); // the frame of the focus is blue
+  const before = await picture(page, "sides-off");
+  assert.equal(rows(before, blue).count + rows(before, orange).count, 0);
+  await page.keyboard.press("n");
+  await page.waitForTimeout(300);
+  const image = await picture(page, "sides-on");
+  const [first, second] = [rows(image, blue), rows(image, orange)];
+  const { lower, upper, segment } = await page.evaluate(
+    ([a, b]) => {
+      const { picture } = window.abut;
+      const at = (id) => picture.view.project(picture.nodeOf(id));
+      const stage = document.querySelector(".stage").getBoundingClientRect();
+      return { lower: at(a).y - stage.top, upper: at(b).y - stage.top, segment: Math.abs(at(a + 1).x - at(a).x) };
+    },
+    [known.lower, known.upper],
+  );
+  const near = (found, wanted, what) => assert.ok(Math.abs(found - wanted) < 0.2 * segment, `${what}: ${found}, and should be ${wanted}`);
+  near(first.top, lower - 0.55 * segment, "tips of the first surface");
+  near(first.bottom, lower, "feet of the first surface");
+  near(second.bottom, upper + 0.55 * segment, "tips of the second surface");
+  near(second.top, upper, "feet of the second surface");
+  assert.ok(first.count > 100 && second.count > 100, `${first.count} and ${second.count} pixels`);
+  await page.keyboard.press("n");
   assert.deepEqual(problems, []);
 });
 
