@@ -369,6 +369,26 @@ test("normals: blue from the first surface upwards, orange from the second downw
   assert.deepEqual(problems, []);
 });
 
+test("a browser that refuses a worker, at once or later, shows the same", async () => {
+  const whole = await picture(page, "worker");
+  for (const before of [
+    () => (window.Worker = undefined),
+    () =>
+      (window.Worker = class {
+        postMessage() {
+          setTimeout(() => this.onerror?.(new Event("error")), 0);
+        }
+      }),
+  ]) {
+    await page.context().close();
+    ({ page, problems } = await openReport(knownReport, { browser, before }));
+    await page.evaluate(() => window.abut.state.set({ frame: 0 }));
+    await page.keyboard.press("1");
+    assert.ok(difference(whole, await picture(page, "no-worker")) < 0.001);
+    assert.deepEqual(problems, []);
+  }
+});
+
 let failed = 0;
 for (const { name, body } of steps) {
   const start = performance.now();
