@@ -101,7 +101,10 @@ test("recolour: another field has other colours, and the legend says which", asy
   assert.match(await page.locator(".legend").innerText(), /Displacement Z\s*m/);
   assert.ok(difference(after, await picture(page, "field-displacement")) > 0.05);
   const states = await page.getByLabel("Colour by").locator("option").allInnerTexts();
-  for (const name of ["Contact pressure", "Penetration", "Stick or slip", "Velocity", "Plastic strain", "Stress"]) {
+  for (const name of [
+    ...["Contact pressure", "Gap to the other surface", "Penetration", "Stick or slip"],
+    ...["Displacement", "Velocity", "Plastic strain", "Stress"],
+  ]) {
     assert.ok(states.includes(name), `no field ${name} in ${states}`);
   }
   await page.getByLabel("Colour by").selectOption({ label: "Contact pressure" });
