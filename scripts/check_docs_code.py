@@ -154,7 +154,7 @@ class Runner:
         self.printed = ""
 
     def run_in_clone(self, block):
-        needs_module = "bindings/python" in block.text
+        needs_module = "python" in block.text
         if not self.repository or ("npm " in block.text and not self.npm) or (needs_module and not self.python_path):
             return "left out", None
         if "git clone" not in block.text:
