@@ -52,6 +52,7 @@ let first;
 
 test("load: the picture is not blank, has the colours of a field, and lies inside the frame", async () => {
   first = await picture(page, "load");
+  if (name === "chromium") assert.equal(page.workers().length, 1, "what is compressed is decoded in a worker");
   const { covered, box, colors } = describe(first);
   assert.ok(covered > 0.1, `the mesh covers ${covered} of the picture`);
   assert.ok(colors.size >= 12, `${colors.size} colours`);
