@@ -48,7 +48,8 @@ def run(module, runtime, command):
         done = subprocess.run([sys.executable, *command], env=environment_of(module, runtime, Path(folder) / "log"), cwd=folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         logs = "".join(path.read_text(errors="replace") for path in Path(folder).glob("log.*"))
-        return done.returncode, done.stdout + ("" if done.returncode == 0 else logs[:6000]), losses(folder)
+        accesses = re.search(r"^==\d+==ERROR: AddressSanitizer.*?(?=^==\d+==ABORTING|\Z)", logs, flags=re.M | re.S)
+        return done.returncode, (accesses.group(0)[:6000] if accesses else "") + done.stdout, losses(folder)
 
 
 def main():
