@@ -6,6 +6,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import path from "node:path";
+import { checkValue, rows } from "./known.mjs";
 
 const [report, findings, knownReport, knownValues, folder = "screenshots", name = "chromium"] = process.argv.slice(2);
 let tools;
@@ -308,14 +309,6 @@ async function pickNode(id) {
   await page.keyboard.press("Escape");
   return Object.fromEntries(rows.map((row) => row.split("\t").map((cell) => cell.trim())));
 }
-const units = { "Gap to the other surface": "m", Penetration: "m", "Displacement Z": "m", "Velocity X": "m/s" };
-function checkValue(text, label, value, where) {
-  const [number, unit = ""] = text.replaceAll("−", "-").split(" ");
-  assert.equal(unit, units[label] ?? "Pa", `${where}: unit of ${label}`);
-  const zero = unit === "Pa" ? 1 : 1e-9; // five digits are shown, and a state's range has 16 bits
-  assert.ok(Math.abs(Number(number) - value) < 1e-4 * Math.abs(value) + zero, `${where}: ${label} is ${text}, and should be ${value}`);
-}
-
 test("known values: gap, penetration, pressure, shear, stick and slip on flat plates are those of the closed form", async () => {
   await page.context().close();
   ({ page, problems } = await openReport(knownReport, { browser }));
@@ -338,13 +331,6 @@ test("known values: gap, penetration, pressure, shear, stick and slip on flat pl
 test("normals: blue from the first surface upwards, orange from the second downwards, 0.55 of a segment long", async () => {
   const blue = (r, g, b) => r < 90 && g > 90 && b > 190;
   const orange = (r, g, b) => r > 200 && g > 60 && g < 140 && b < 70;
-  const rows = (image, colour) => {
-    let [top, bottom, count] = [image.height, -1, 0];
-    for (let y = 0; y < image.height; y++)
-      for (let x = 0; x < image.width; x++)
-        if (colour(...image.pixel(x, y))) [top, bottom, count] = [Math.min(top, y), Math.max(bottom, y), count + 1];
-    return { top, bottom, count };
-  };
   await page.locator(".stage canvas").focus();
   await page.keyboard.press("1"); // along x: both plates are lines
   await page.evaluate(() => document.activeElement.blur()); // the frame of the focus is blue
