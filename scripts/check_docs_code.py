@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs the code of the documentation: every fenced block of README.md, CONTRIBUTING.md, docs/ and examples/README.md.
 
-usage: check_docs_code.py [--full] [--abut PROGRAM] [--library FILE] [--python PROGRAM --python-path FOLDER] [--only PAGE ...] [--list]
+usage: check_docs_code.py [--full] [--abut PROGRAM] [--library FILE] [--python PROGRAM --python-path FOLDER] [--no-npm]
+                          [--clones yes|no] [--only PAGE ...] [--except PAGE ...] [--list]
 
 What a block is follows from its info string and from a comment right above it, and no block is passed over:
 
@@ -17,13 +18,15 @@ What a block is follows from its info string and from a comment right above it, 
   <!-- code: excerpt of FILE -->   not run, but every line stands in FILE in this order ("..." skips lines; indentation and
                                    the slashes of a comment do not count)
   <!-- code: fails -->             the commands of the block end with an error, as the page says
-  <!-- code: full, REASON -->      run with --full only (./check --full), and named with its reason without it
-  <!-- code: full in a clone, REASON -->      the same, in a clone of the repository named abut (with what is not committed), which such blocks share
-  <!-- code: full beside a clone, REASON -->  the same, where that clone lies; REPOSITORY stands for this repository
+  <!-- code: in a clone -->        run in a clone of the repository named abut (with what is not committed), which such blocks share. Its build is
+                                   the one that is being tested, and the suite is listed there (docs_clone.py); with --full it is a clone like any
+  <!-- code: beside a clone -->    the same, where that clone lies; REPOSITORY stands for this repository
+  <!-- code: listed, REASON -->    test programs of the block list the tests that they would run; they run them with --full
 
 The blocks of a page share one temporary folder, which has the repository's examples/, scripts/ and tools/; abut is on the PATH. What would open a
 window is read instead: `paraview FILE` opens every state of FILE with VTK's own reader (tests/decks/read_animation.py).
-With --full only the blocks marked "full" are run, pages that clone first.
+With --full only the blocks of the last three kinds are run, for real: in a fresh clone that is built, and for minutes. Pages that clone come first.
+Without a repository around, or npm, or the module, the blocks that need them are left out, and counted.
 Exit status 1 if a block does not do what it says. Standard library only.
 """
 import argparse
@@ -36,11 +39,13 @@ import tempfile
 import time
 from pathlib import Path
 
+import docs_clone
+
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ["README.md", "CONTRIBUTING.md", "examples/README.md"]
-LIMIT = 300  # seconds for one block
-FULL_LIMIT = 5400  # seconds for one that is marked "full"
-CLONE = {"full in a clone": "abut", "full beside a clone": "."}
+LIMIT = 600  # seconds for one block
+FULL_LIMIT = 5400  # seconds with --full
+CLONE = {"in a clone": "abut", "beside a clone": "."}
 
 
 class Block:
@@ -125,7 +130,7 @@ def commands_of(text):
 
 
 class Runner:
-    def __init__(self, program, library, place, python=sys.executable, python_path=None, full=False):
+    def __init__(self, program, library, place, python=sys.executable, python_path=None, full=False, npm=True):
         """@param place a folder for what all pages share"""
         self.program, self.library, self.place, self.python, self.python_path = Path(program), library, Path(place), python, python_path
         self.full, self.limit = full, FULL_LIMIT if full else LIMIT
@@ -138,35 +143,39 @@ class Runner:
         self.environment = {**os.environ, "PATH": f"{programs}:{self.program.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
         if not full:
             self.environment["ABUT_SKIP_DEPS"] = "1"
+        self.in_clone = {**self.environment}
+        if not full:
+            docs_clone.clone_programs(self.place / "clone_programs", self.program.parent.parent)
+            self.in_clone |= {"PATH": f"{self.place / 'clone_programs'}:{self.environment['PATH']}", "ABUT_BUILD_DIR": str(self.program.parent.parent),
+                              "npm_config_prefer_offline": "true"}
         if python_path and not full:
             self.environment["PYTHONPATH"] = str(python_path)
+        self.repository, self.npm = docs_clone.is_repository(ROOT), npm and shutil.which("npm") is not None
         self.printed = ""
 
-    def clone(self):
-        """The clone that pages share: what is committed, and over it what is not."""
-        clone = self.place / "abut"
-        if not clone.exists():
-            subprocess.run(["git", "clone", "--quiet", ROOT, clone], check=True)
-        changed = subprocess.run(["git", "ls-files", "--modified", "--others", "--exclude-standard"], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE)
-        for name in changed.stdout.splitlines():
-            if (ROOT / name).is_file():
-                (clone / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(ROOT / name, clone / name)
+    def run_in_clone(self, block):
+        needs_module = "python" in block.text
+        if not self.repository or ("npm " in block.text and not self.npm) or (needs_module and not self.python_path):
+            return "left out", None
+        if "git clone" not in block.text:
+            docs_clone.make_clone(ROOT, self.place / "abut")
+        text = block.text.replace("REPOSITORY", str(ROOT))
+        return "run", self.call(["bash", "-e", "-o", "pipefail", "-c", text], self.place / CLONE[block.directive], environment=self.in_clone)
 
-    def run_in_full(self, block, folder):
-        kind, _, reason = block.directive.partition(", ")
-        if kind not in ("full", *CLONE) or not reason:
-            return "unknown", f"unknown directive: {block.directive}"
+    def run_listed(self, block, folder):
         if not self.full:
-            return "only in full", None
-        if kind in CLONE and "git clone" not in block.text:
-            self.clone()
-        text = block.text.replace("REPOSITORY", str(ROOT)) if kind == "full beside a clone" else block.text
-        return "run", self.call(["bash", "-e", "-o", "pipefail", "-c", text], self.place / CLONE[kind] if kind in CLONE else folder)
+            programs = folder / "build/release/bin"
+            programs.unlink()
+            docs_clone.list_tests(programs, self.program.parent)
+        fault = self.call(["bash", "-e", "-o", "pipefail", "-c", block.text], folder)
+        if not self.full:
+            shutil.rmtree(programs)
+            programs.symlink_to(self.program.parent)
+        return "run" if self.full else "listed", fault
 
-    def call(self, command, folder, may_fail=False):
-        done = subprocess.run(command, cwd=folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, errors="replace", timeout=self.limit)
+    def call(self, command, folder, may_fail=False, environment=None):
+        done = subprocess.run(command, cwd=folder, env=environment or self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, errors="replace", timeout=self.limit)
         self.printed = done.stdout
         if (done.returncode != 0) != may_fail:
             tail = "\n    ".join(done.stdout.splitlines()[-8:])
@@ -189,14 +198,17 @@ class Runner:
         (folder / "page.cpp").write_text(block.text + "\n")
         compiler = os.environ.get("CXX", "c++")
         libraries = [str(self.library), str(self.library.with_name("libabut_simd.a"))]  # contact's own, and what it needs
-        return self.call([compiler, "-std=c++20", "-Wall", "-Wextra", "-I", str(ROOT / "include"), "page.cpp", *libraries, "-o", "page"], folder) \
+        flags = os.environ.get("CXXFLAGS", "").split()  # a sanitizer's library needs the sanitizer's flag
+        return self.call([compiler, "-std=c++20", "-Wall", "-Wextra", *flags, "-I", str(ROOT / "include"), "page.cpp", *libraries, "-o", "page"], folder) \
             or self.call(["./page"], folder)
 
     def run(self, block, folder):
         """@returns (kind, fault or None)"""
         directive, language = block.directive, block.language
-        if directive.startswith("full"):
-            return self.run_in_full(block, folder)
+        if directive in CLONE:
+            return self.run_in_clone(block)
+        if directive.startswith("listed, "):
+            return self.run_listed(block, folder)
         if self.full:
             return "left out", None
         if directive == "output":
@@ -251,8 +263,11 @@ def main():
     parser.add_argument("--library", type=Path, default=ROOT / "build/release/libabut_contact.a")
     parser.add_argument("--python", default=sys.executable, help="interpreter that the module abut is for")
     parser.add_argument("--python-path", type=Path, help="folder of the package abut, e.g. build/release/python")
-    parser.add_argument("--full", action="store_true", help="run the blocks marked full, and no others: minutes")
-    parser.add_argument("--only", nargs="*", default=[], help="pages, as paths from the root of the repository")
+    parser.add_argument("--no-npm", action="store_true", help="leave out what needs npm")
+    parser.add_argument("--full", action="store_true", help="run the blocks of clones and the listed ones for real, and no others: minutes")
+    parser.add_argument("--clones", choices=("yes", "no"), help="only the blocks that run in a clone, or all others")
+    parser.add_argument("--only", nargs="*", default=[""], help="pages or folders, as paths from the root of the repository")
+    parser.add_argument("--except", nargs="*", default=[], dest="without", help="the same, left out")
     parser.add_argument("--list", action="store_true", help="say what each block is")
     args = parser.parse_args()
 
@@ -273,15 +288,17 @@ def furnish(folder, runner):
 
 def check(args, place):
     runner = Runner(args.abut.resolve(), args.library.resolve() if args.library.is_file() else None, place, args.python,
-                    args.python_path.resolve() if args.python_path else None, args.full)
+                    args.python_path.resolve() if args.python_path else None, args.full, not args.no_npm)
     pages = []
     for path in [ROOT / name for name in PAGES] + sorted((ROOT / "docs").rglob("*.md")):
         page = path.relative_to(ROOT).as_posix()
-        if not args.only or page in args.only:
-            pages.append((page, list(blocks_of(page, path.read_text(encoding="utf-8")))))
-    if args.full:  # a clone can be made only where there is none
-        pages.sort(key=lambda entry: not any(block.directive.startswith("full") and "git clone" in block.text for block in entry[1]))
-    counts, faults, later = {}, [], []
+        if page.startswith(tuple(args.only)) and not page.startswith(tuple(args.without)):
+            blocks = [block for block in blocks_of(page, path.read_text(encoding="utf-8"))
+                      if args.clones is None or (block.directive in CLONE) == (args.clones == "yes")]
+            pages.append((page, blocks))
+    # A clone can be made only where there is none.
+    pages.sort(key=lambda entry: not any(block.directive in CLONE and "git clone" in block.text for block in entry[1]))
+    counts, faults = {}, []
     for _, blocks in pages:
         with tempfile.TemporaryDirectory(prefix="page-", dir=place) as temporary:
             folder = Path(temporary)
@@ -294,13 +311,12 @@ def check(args, place):
                 except (ValueError, OSError, subprocess.SubprocessError) as error:
                     kind, fault = "run", str(error)
                 counts[kind] = counts.get(kind, 0) + 1
-                if kind == "only in full":
-                    later.append(f"{block.where}: {block.directive}")
                 if args.list or (args.full and kind == "run"):
                     print(f"{block.where}: {kind} {block.language}, {time.monotonic() - start:.0f} s", flush=True)
                 if fault:
                     faults.append(f"{block.where}: {fault}")
-    print("\n".join([*faults, *later]))
+    if faults:
+        print("\n".join(faults))
     print(", ".join(f"{count} {kind}" for kind, count in sorted(counts.items())) + f": {len(faults)} faults")
     return 1 if faults or not counts else 0
 

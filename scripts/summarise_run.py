@@ -83,7 +83,9 @@ def main():
         for line in interface_lines(history, ident):
             print(f"  {line}")
     animations = sorted(folder.glob("*.pvd"))
-    if animations:
+    if animations and (folder / "report.html").exists():
+        print(f"See it: {(folder / 'report.html').resolve().as_uri()} (any browser), or paraview {animations[0]} (Debian: apt-get install paraview)")
+    elif animations:
         print(f"See it: abut report {folder} (one page for any browser), or paraview {animations[0]} (Debian: apt-get install paraview)")
     return 0
 

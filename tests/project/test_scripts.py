@@ -213,6 +213,60 @@ class DocumentationCode(unittest.TestCase):
             self.assertIsNotNone(self.module.excerpt_differs("two\none", path))
 
 
+class ClonePrograms(unittest.TestCase):
+    """What stands in for a build in the documentation's clones does nothing, but does not take anything for good."""
+
+    @classmethod
+    def setUpClass(cls):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import docs_clone
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.root = Path(cls.temporary.name)
+        cls.build, cls.clone = cls.root / "tested", cls.root / "clone"
+        cls.clone.mkdir()
+        (cls.clone / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(p NONE)\nenable_testing()\n"
+                                                   "add_custom_target(there COMMAND false)\nadd_test(NAME one COMMAND false)\n")
+        (cls.clone / "CMakePresets.json").write_text('{"version": 5, "configurePresets": [{"name": "release", "generator": "Ninja", '
+                                                      '"binaryDir": "${sourceDir}/build/release"}]}')
+        subprocess.run(["cmake", "-G", "Ninja", "-S", str(cls.clone), "-B", str(cls.build)], check=True, stdout=subprocess.DEVNULL)
+        docs_clone.clone_programs(cls.root / "programs", cls.build)
+        cls.docs_clone = docs_clone
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def call(self, name, *arguments):
+        done = subprocess.run([str(self.root / "programs" / name), *arguments], cwd=self.clone, text=True, capture_output=True, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_a_preset_takes_the_tested_build(self):
+        self.assertNotEqual(self.call("cmake", "--preset", "none")[0], 0)
+        self.assertEqual(self.call("cmake", "--preset", "release")[0], 0)
+        self.assertEqual((self.clone / "build/release").resolve(), self.build.resolve())
+
+    def test_targets_are_looked_up_and_not_built(self):
+        self.call("cmake", "--preset", "release")
+        self.assertEqual(self.call("cmake", "--build", "build/release", "--parallel", "2", "--target", "there")[0], 0)
+        self.assertEqual(self.call("cmake", "--build", "build/release", "--target", "there", "none"), (1, "no target none\n"))
+        self.assertNotEqual(self.call("cmake", "--build", "build/none")[0], 0)
+
+    def test_tests_are_listed(self):
+        self.call("cmake", "--preset", "release")
+        status, output = self.call("ctest", "--test-dir", "build/release", "-R", "one")
+        self.assertEqual(status, 0)
+        self.assertIn("one", output)
+        self.assertNotEqual(self.call("ctest", "--test-dir", "build/release", "-R", "none")[0], 0)
+
+    def test_a_test_program_lists(self):
+        programs = self.root / "bin"
+        programs.mkdir()
+        self.docs_clone.write_program(programs / "test_a", '#!/bin/sh\necho "Suite."; echo "  Name"; [ "$2" = --gtest_list_tests ]\n')
+        self.docs_clone.list_tests(self.root / "listed", programs)
+        done = subprocess.run([str(self.root / "listed/test_a"), "--gtest_filter=*"], text=True, capture_output=True, check=True)
+        self.assertEqual(done.stdout, "found Name\n")
+
+
 class PublicHeaders(Tree):
     def test_a_header_that_needs_another(self):
         self.assertEqual(run("scripts/check_public_headers.py", "c++", self.root)[0], 0)

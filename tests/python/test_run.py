@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import abut
-from support import DECKS, STEEL, builder, cube, one_cube, resident_bytes, two_blocks
+from support import DECKS, STEEL, builder, cube, held_bytes, one_cube, two_blocks
 
 
 def run_of(**arguments):
@@ -388,9 +388,9 @@ def test_nothing_leaks():
     for _ in range(30):
         one_round()
     gc.collect()
-    before = resident_bytes()
+    before = held_bytes()
     for _ in range(150):
         one_round()
     gc.collect()
     # One state of this model is some 100 kB: a leak of any of them would be 15 MB.
-    assert resident_bytes() - before < 4e6
+    assert held_bytes() - before < 4e6

@@ -2,6 +2,9 @@
 import ast
 import inspect
 import re
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -154,3 +157,10 @@ def test_python_parts_have_annotations():
             assert signature.return_annotation is not inspect.Signature.empty, f"{cls.__name__}.{name}"
             assert all(p.annotation is not inspect.Parameter.empty for n, p in signature.parameters.items() if n != "self"), name
     assert (PACKAGE / "py.typed").is_file()
+
+
+def test_without_its_compiled_half_it_says_what_makes_it(tmp_path):
+    shutil.copytree(PACKAGE, tmp_path / "abut", ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    done = subprocess.run([sys.executable, "-c", "import abut"], cwd=tmp_path, env={"PYTHONPATH": str(tmp_path)}, text=True, stderr=subprocess.PIPE)
+    assert done.returncode == 1
+    assert "ImportError: abut's compiled half, abut._native, is not built for this Python" in done.stderr

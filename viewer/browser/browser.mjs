@@ -64,11 +64,12 @@ export async function launch(name = "chromium") {
   });
 }
 
-/** A page with the report, its first picture drawn, and a list to which everything that goes wrong is added. */
-export async function openReport(file, { width = 1280, height = 720, theme = "light", browser = undefined } = {}) {
+/** A page with the report, its first picture drawn, and a list to which everything that goes wrong is added. `before` runs in the page first. */
+export async function openReport(file, { width = 1280, height = 720, theme = "light", browser = undefined, before = undefined } = {}) {
   const own = browser ?? (await launch());
   const context = await own.newContext({ viewport: { width, height }, colorScheme: theme, offline: true, reducedMotion: "reduce" });
   const page = await context.newPage();
+  if (before) await page.addInitScript(before);
   const problems = [];
   page.on("console", (message) => {
     if (message.type() === "error") problems.push(message.text());

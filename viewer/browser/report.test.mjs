@@ -1,12 +1,14 @@
-// The report in a real browser, without a network: node browser/report.test.mjs REPORT.html FINDINGS.html [SCREENSHOTS [chromium|firefox]]
+// The report in a real browser, without a network: node browser/report.test.mjs REPORT.html FINDINGS.html KNOWN.html KNOWN.json [SCREENSHOTS [chromium|firefox]]
 //   REPORT    of examples/decks/plate_drop
 //   FINDINGS  of examples/decks/findings/normals_away, whose contact surfaces look away from each other
+//   KNOWN     of the deck that tests/report/flat_plates.py writes, and the contact values that it has in closed form
 // Exit status 77 with a message when there is no such browser. Screenshots stay in the folder.
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readFileSync } from "node:fs";
 import path from "node:path";
+import { checkValue, rows } from "./known.mjs";
 
-const [report, findings, folder = "screenshots", name = "chromium"] = process.argv.slice(2);
+const [report, findings, knownReport, knownValues, folder = "screenshots", name = "chromium"] = process.argv.slice(2);
 let tools;
 try {
   tools = { ...(await import("./browser.mjs")), ...(await import("./png.mjs")) };
@@ -51,6 +53,7 @@ let first;
 
 test("load: the picture is not blank, has the colours of a field, and lies inside the frame", async () => {
   first = await picture(page, "load");
+  if (name === "chromium") assert.equal(page.workers().length, 1, "what is compressed is decoded in a worker");
   const { covered, box, colors } = describe(first);
   assert.ok(covered > 0.1, `the mesh covers ${covered} of the picture`);
   assert.ok(colors.size >= 12, `${colors.size} colours`);
@@ -100,7 +103,10 @@ test("recolour: another field has other colours, and the legend says which", asy
   assert.match(await page.locator(".legend").innerText(), /Displacement Z\s*m/);
   assert.ok(difference(after, await picture(page, "field-displacement")) > 0.05);
   const states = await page.getByLabel("Colour by").locator("option").allInnerTexts();
-  for (const name of ["Contact pressure", "Penetration", "Stick or slip", "Velocity", "Plastic strain", "Stress"]) {
+  for (const name of [
+    ...["Contact pressure", "Gap to the other surface", "Penetration", "Stick or slip"],
+    ...["Displacement", "Velocity", "Plastic strain", "Stress"],
+  ]) {
     assert.ok(states.includes(name), `no field ${name} in ${states}`);
   }
   await page.getByLabel("Colour by").selectOption({ label: "Contact pressure" });
@@ -290,6 +296,90 @@ test("follow a finding: its segments are marked on the mesh and in the frame", a
   await page.locator(".finding.error").first().click();
   assert.equal(share(await picture(page, "finding-gone"), magenta), 0);
   assert.deepEqual(problems, []);
+});
+
+const known = JSON.parse(readFileSync(knownValues, "utf8"));
+/** Clicks on a node that is seen. @returns what the panel says of it: {label: text} */
+async function pickNode(id) {
+  await settle(page);
+  const at = await page.evaluate((n) => window.abut.picture.view.project(window.abut.picture.nodeOf(n)), id);
+  await page.mouse.click(at.x + 1, at.y + 1);
+  await page.waitForFunction((n) => document.querySelector("[data-picked-node]")?.textContent === String(n), id);
+  const rows = await page.locator(".picked table").first().locator("tr").allInnerTexts();
+  await page.keyboard.press("Escape");
+  return Object.fromEntries(rows.map((row) => row.split("\t").map((cell) => cell.trim())));
+}
+test("known values: gap, penetration, pressure, shear, stick and slip on flat plates are those of the closed form", async () => {
+  await page.context().close();
+  ({ page, problems } = await openReport(knownReport, { browser }));
+  await page.waitForFunction(() => window.abut.picture.view.drawCount > 0);
+  for (const { frame, what, state, values, moves = {} } of known.frames) {
+    for (const [side, id, hidden] of [
+      ["upper", known.upper, 0],
+      ["lower", known.lower, 1],
+    ]) {
+      await page.evaluate(([f, part]) => window.abut.state.set({ frame: f, hiddenParts: new Set([part]) }), [frame, hidden]);
+      const shows = await pickNode(id);
+      for (const [label, value] of Object.entries({ ...values, ...(side === "upper" ? moves : {}) }))
+        checkValue(shows[label] ?? "nothing", label, value, `${what}, ${side} plate`);
+      assert.equal(shows["Stick or slip"], state, `${what}, ${side} plate`);
+    }
+  }
+  await page.evaluate(() => window.abut.state.set({ frame: 0, hiddenParts: new Set() }));
+});
+
+test("normals: blue from the first surface upwards, orange from the second downwards, 0.55 of a segment long", async () => {
+  const blue = (r, g, b) => r < 90 && g > 90 && b > 190;
+  const orange = (r, g, b) => r > 200 && g > 60 && g < 140 && b < 70;
+  await page.locator(".stage canvas").focus();
+  await page.keyboard.press("1"); // along x: both plates are lines
+  await page.evaluate(() => document.activeElement.blur()); // the frame of the focus is blue
+  const before = await picture(page, "sides-off");
+  assert.equal(rows(before, blue).count + rows(before, orange).count, 0);
+  await page.keyboard.press("n");
+  await page.waitForTimeout(300);
+  const image = await picture(page, "sides-on");
+  const [first, second] = [rows(image, blue), rows(image, orange)];
+  const { lower, upper, segment } = await page.evaluate(
+    ([a, b]) => {
+      const { picture } = window.abut;
+      const at = (id) => picture.view.project(picture.nodeOf(id));
+      const stage = document.querySelector(".stage").getBoundingClientRect();
+      return { lower: at(a).y - stage.top, upper: at(b).y - stage.top, segment: Math.abs(at(a + 1).x - at(a).x) };
+    },
+    [known.lower, known.upper],
+  );
+  const near = (found, wanted, what) => assert.ok(Math.abs(found - wanted) < 0.2 * segment, `${what}: ${found}, and should be ${wanted}`);
+  near(first.top, lower - 0.55 * segment, "tips of the first surface");
+  near(first.bottom, lower, "feet of the first surface");
+  near(second.bottom, upper + 0.55 * segment, "tips of the second surface");
+  near(second.top, upper, "feet of the second surface");
+  assert.ok(first.count > 100 && second.count > 100, `${first.count} and ${second.count} pixels`);
+  await page.keyboard.press("n");
+  assert.deepEqual(problems, []);
+});
+
+test("a browser that refuses a worker, at once or later, shows the same", async () => {
+  let whole;
+  for (const before of [
+    undefined,
+    () => (window.Worker = undefined),
+    () =>
+      (window.Worker = class {
+        postMessage() {
+          setTimeout(() => this.onerror?.(new Event("error")), 0);
+        }
+      }),
+  ]) {
+    await page.context().close();
+    ({ page, problems } = await openReport(knownReport, { browser, before }));
+    await page.evaluate(() => window.abut.state.set({ frame: 0 }));
+    await page.keyboard.press("1");
+    const image = await picture(page, before ? "no-worker" : "worker");
+    whole ??= image;
+    assert.ok(difference(whole, image) < 0.001);
+    assert.deepEqual(problems, []);
+  }
 });
 
 let failed = 0;

@@ -11,7 +11,13 @@
 
 `abut.contact` is the contact library on its own, for hosts that integrate by themselves. Guide: docs/guide/python.md.
 """
-from . import _native, contact
+try:
+    from . import _native  # noqa: F401
+except ImportError as error:
+    if "partially initialized" not in str(error):
+        raise
+    raise ImportError("abut's compiled half, abut._native, is not built for this Python (in a clone: scripts/build release abut_python_package)") from None
+from . import contact
 from ._native import (Balance, ContactFinding, Diagnostic, Edit, ElementTable, InputError, Inspection, InterfaceResult, Model,
                       ModelInterface, ModelSurface, Outcome, Part, Run, RunError, RunFinding, StepController, Units, version)
 from .builder import ModelBuilder

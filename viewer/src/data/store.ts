@@ -6,7 +6,10 @@ const CACHE_BYTES = 512e6;
 
 export class ChunkStore {
   private worker: Worker | undefined;
-  private readonly waiting = new Map<number, { resolve: (a: ChunkArray) => void; reject: (e: Error) => void }>();
+  private readonly waiting = new Map<
+    number,
+    { info: ChunkInfo; text: string; resolve: (a: ChunkArray) => void; reject: (e: Error) => void }
+  >();
   private readonly cache = new Map<number, Promise<ChunkArray>>();
   private readonly sizes = new Map<number, number>();
   private readonly ready = new Set<number>();
@@ -61,7 +64,7 @@ export class ChunkStore {
     const text = await this.text(info.id);
     if (!this.worker) return decodeChunk(info, text);
     return new Promise((resolve, reject) => {
-      this.waiting.set(info.id, { resolve, reject });
+      this.waiting.set(info.id, { info, text, resolve, reject });
       this.worker!.postMessage({ id: info.id, info, text });
     });
   }
@@ -80,7 +83,7 @@ export class ChunkStore {
   /** The browser does not let this page have a worker: what waits is decoded here. */
   private withoutWorker(): void {
     this.worker = undefined;
-    for (const [, waiter] of this.waiting) waiter.reject(new Error("the worker failed"));
+    for (const { info, text, resolve, reject } of this.waiting.values()) decodeChunk(info, text).then(resolve, reject);
     this.waiting.clear();
   }
 

@@ -121,7 +121,7 @@ class Plot {
           points: { size: 6 },
           drag: { x: true, y: false },
         },
-        legend: { live: true },
+        legend: { live: true, markers: { dash: (_u, i) => (i > lineColors.length ? "dashed" : "solid") } },
         scales: {
           x: { time: false },
           y: { range: (_u, low, high) => padded(low, high) },
@@ -146,7 +146,8 @@ class Plot {
             show: this.on[i]!,
             stroke: cssValue(lineColors[i % lineColors.length]!),
             width: 1.5,
-            ...(line.right ? { dash: [4, 3] } : {}),
+            // Colours come round again, dashes tell the lines apart.
+            ...(line.right ? { dash: [4, 3] } : i >= lineColors.length ? { dash: [10, 4] } : {}),
             points: { show: false },
             value: number,
           })),
