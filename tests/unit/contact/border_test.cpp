@@ -175,8 +175,8 @@ TEST(Border, stored_energy_is_the_largest_of_any_facet) {
     std::vector<double> stiffness(facets.size());
     for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 4 < 2 ? 1.0 : 4.0;
     const auto n = static_cast<std::size_t>(host.add({}, 1.0));
-    for (int shot = 0; shot < 3000; ++shot) {
-      const double px = shot % 2 == 0 ? 0.75 * (shot % 3 - 1) + 0.05 * u(random) : 1.7 * u(random), py = 1.7 * u(random);
+    for (int shot = 0; shot < 6000; ++shot) {
+      const double px = shot % 2 == 0 ? 0.75 * (shot % 3 - 1) + 0.02 * u(random) : 1.7 * u(random), py = 1.7 * u(random);
       host.x[n] = {px, py, height(px, py) + 0.1 + 0.09 * u(random)};
       Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), still(gap));
       i.set_surface(1, {stiffness, {}, {}});
@@ -218,7 +218,7 @@ TEST(Border, stored_energy_is_the_largest_of_any_facet) {
   }
   std::printf("  %d nodes, another facet than the nearest for %d; differs by %.1e\n", compared, other, worst);
   EXPECT_GT(compared, 5000);
-  EXPECT_GT(other, 100);
+  EXPECT_GT(other, 50);
   EXPECT_LT(worst, 1e-14);
 }
 
