@@ -66,7 +66,7 @@ struct NodeState {
   std::uint8_t anchored = 0;
   std::uint8_t in_front = 0;  ///< was measured in front of a facet
   std::uint8_t reckoned = 0;  ///< `made` counts
-  std::uint8_t light = 0;     ///< 1: its steps were once long for its stiffness, or it passed over a fold; settled: its last force was tried
+  std::uint8_t light = 0;  ///< 1: its steps were once long for its stiffness, or it passed over a fold; settled: its last force was tried
   std::array<std::uint8_t, 6> unused{};
   static constexpr std::uint8_t settled = 2;
   double offset = 0.0;   ///< the gap of this node is smaller by this (initial penetration)
@@ -130,10 +130,10 @@ class Pass {
     Vec3 point, normal;
     double distance = 0.0;
     double penetration = 0.0;
-    Measure measure;              ///< what `pair` is made from, where it is not made yet
-    double gap = 0.0;             ///< the same
-    bool pair_open = false;       ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
-    PairForce pair;               ///< where several facets are equally near: the mean of theirs
+    Measure measure;                ///< what `pair` is made from, where it is not made yet
+    double gap = 0.0;               ///< the same
+    bool pair_open = false;         ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
+    PairForce pair;                 ///< where several facets are equally near: the mean of theirs
     std::size_t first_further = 0;  ///< further facets that the force acts on: GroupSums::further from here
     std::size_t further = 0;
     int equals = 1;  ///< facets at the same distance
@@ -142,8 +142,8 @@ class Pass {
   // that stores more though it is less near.
   struct Further {
     Measure measure;
-    PairForce own;                   ///< as if it were the nearest, but for what widens its strips
-    bool equal = false;              ///< as near as the first
+    PairForce own;       ///< as if it were the nearest, but for what widens its strips
+    bool equal = false;  ///< as near as the first
     bool acts = false;
     std::array<Vec3, 4> on_facet{};  ///< its share
   };

@@ -178,8 +178,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double h_before = step_before(host.dt, host.dt_bar_old);
   double made = 0.0;  // energy that the pair has made, before this cycle's force
   // Along the normal that it was taken along before: where the normal turns, that is no acceleration.
-  const double rate_along_last = before.held != 0 && closest() ? dot(motion.rate * touch.normal + motion.tangential_velocity, before.normal)
-                                                               : motion.rate;
+  const double rate_along_last =
+      before.held != 0 && closest() ? dot(motion.rate * touch.normal + motion.tangential_velocity, before.normal) : motion.rate;
   if (before.held != 0) {
     const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, rate_along_last);
     totals.stepped += by_step;

@@ -36,7 +36,8 @@ HeldRules Pass::held_rules(const HostState& host) const {
 
 bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   const NodeState& before = state_[at(i)];
-  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0 || before.light == NodeState::settled) return false;
+  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0 || before.light == NodeState::settled)
+    return false;
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];
   if (corner[2] == corner[3]) return false;

@@ -210,8 +210,8 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   }
 }
 
-void Pass::add_strongest(const Side& held, const Side& surface, Index i, double gap, bool widens, Further& nearest,
-                         std::span<Further> all, double share, PairForce& sum) const {
+void Pass::add_strongest(const Side& held, const Side& surface, Index i, double gap, bool widens, Further& nearest, std::span<Further> all,
+                         double share, PairForce& sum) const {
   const double sign = nearest.measure.distance < 0.0 ? -1.0 : 1.0;
   const double p = gap - nearest.measure.distance;
   struct Other {
@@ -252,7 +252,8 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, double 
     part.magnitude = part.stiffness * law_.force(o.depth);
     const Vec3 push = (of_nearest * part.magnitude + part.of_wider) * nearest.measure.normal;
     part.on_node += push;
-    const double turn = slope * slope + of_nearest * of_nearest + 2.0 * slope * of_nearest * dot(one.measure.normal, nearest.measure.normal);
+    const double turn =
+        slope * slope + of_nearest * of_nearest + 2.0 * slope * of_nearest * dot(one.measure.normal, nearest.measure.normal);
     part.extra_tangent += std::max(turn - 1.0, 0.0) * part.stiffness * law_.tangent(p) + 2.0 * part.magnitude / o.length;
     add(part, share);
     for (std::size_t c = 0; c < 4; ++c) {

@@ -161,9 +161,9 @@ TEST(Border, force_of_a_facet_that_stores_more_is_the_gradient) {
 
 // The same surfaces: what is stored is, word for word (docs/theory/contact.md, 3), the largest that any facet has for the node.
 TEST(Border, stored_energy_is_the_largest_of_any_facet) {
-  const std::vector<std::function<double(double, double)>> shapes{
-      [](double x, double y) { return 0.2 * x * x + 0.15 * y * y; }, [](double x, double y) { return 0.15 * x * x - 0.2 * y * y; },
-      [](double x, double) { return 0.4 * std::abs(x); }};
+  const std::vector<std::function<double(double, double)>> shapes{[](double x, double y) { return 0.2 * x * x + 0.15 * y * y; },
+                                                                  [](double x, double y) { return 0.15 * x * x - 0.2 * y * y; },
+                                                                  [](double x, double) { return 0.4 * std::abs(x); }};
   std::mt19937 random(12);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   const double gap = 0.2;
@@ -187,7 +187,8 @@ TEST(Border, stored_energy_is_the_largest_of_any_facet) {
       // The nearest point, and of every facet T, K and P*; a free node in front: strips are not widened.
       std::vector<Measure> all;
       const Measure* nearest = nullptr;
-      for (Index f = 0; f < side.facet_count(); ++f) all.push_back(signed_measure(side, f, closest_point(side.patch(f), host.x[n]), host.x[n]));
+      for (Index f = 0; f < side.facet_count(); ++f)
+        all.push_back(signed_measure(side, f, closest_point(side.patch(f), host.x[n]), host.x[n]));
       for (const Measure& m : all) {
         if (nearest == nullptr || m.closest.squared_distance < nearest->closest.squared_distance) nearest = &m;
       }
