@@ -212,7 +212,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, std::span<Touc
       const Index i = nodes[k];
       if (lane[k] == none) continue;
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
-      if (ordinary && alone(batch, lane[k], i, strongest(held, surface, i))) continue;
+      if (ordinary && alone(scene, batch, lane[k], i)) continue;
       Touch& touch = touches[k];
       measure(scene, i, touch, sums);
       any = any || touch.contact;
