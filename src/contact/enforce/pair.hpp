@@ -7,6 +7,11 @@
 //   facet node i:   f_i = -H_i f - c^a H_i,a r
 // sum f_i = -f because sum H_i,a = 0. The terms with c exist only where kappa varies; they are what makes dragging a node
 // over a change of stiffness, or off a border, give back its work. On an edge xi has one free direction, at a corner none.
+// A facet j that is less near than the nearest one, m, holds the node where it stores more (docs/theory/contact.md, 3): the law then acts
+// at
+//   P* = P - D (1 + P/delta),   D = |d_j| - |d_m|,  delta a quarter of j's length,
+// so that the energy, a maximum of continuous functions, does not jump where kappa differs between two points that are equally near. Here:
+// the part of j (Depth); what P* takes from d_m is added by Pass::add_strongest.
 // Where A is not positive (past a centre of curvature) the closest point is not unique and c is left out.
 #pragma once
 

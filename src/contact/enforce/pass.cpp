@@ -223,7 +223,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
       const Index i = nodes[k];
       if (lane[k] == none) continue;
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
-      if (ordinary && alone(batch, lane[k], i, strongest(held, surface, i), sums)) continue;
+      if (ordinary && alone(scene, batch, lane[k], i, sums)) continue;
       Touch& touch = touches[k];
       measure(scene, i, touch, sums);
       any = any || touch.contact;

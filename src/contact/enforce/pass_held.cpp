@@ -119,12 +119,14 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
   held_kernel()(held_rules(scene.host), batch);
 }
 
-bool Pass::alone(const HeldBatch& batch, int lane, Index i, double strongest, GroupSums& sums) const {
+bool Pass::alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) const {
   const Candidates::Others& others = candidates_.others(i);
   const NodeState& before = states_.before(i);
   if (others.facet != before.facet || (before.held == 2 && !others.wide)) return false;
   // Beyond what counts as equally near or can store more, with room for the rounding of the clock.
-  const double further = reach_of_stronger(batch.stiffness[lane], strongest, batch.penetration[lane]);
+  const double further = scene.surface.evenly_stiff()
+                             ? 0.0
+                             : reach_of_stronger(batch.stiffness[lane], strongest(scene.held, scene.surface, i), batch.penetration[lane]);
   const double reach = (others.due - candidates_.clock()) * (1.0 - 2.0 * equally_near) - (1.0 + 1e-6) * further;
   if (outgrows(i, std::sqrt(batch.squared_distance[lane]) + further)) sums.outgrown = true;
   return reach > 0.0 && reach * reach > batch.squared_distance[lane];

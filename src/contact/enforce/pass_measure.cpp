@@ -217,11 +217,16 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
     const double away = std::sqrt(other.squared_distance);
     const bool as_near = std::abs(away - distance) <= equal;
     if (!as_near && !(away > distance && away - distance < beyond && away <= reach)) continue;
-    if (other.beyond || squared_norm(other.point - m.closest.point) < 1e-12 * size) continue;  // the same point, seen from across
+    if (other.beyond) continue;
     const Measure its = signed_measure(surface, f, other, x);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
+    // The same point, seen from the facet across, is the same contact unless its strip fades elsewhere.
+    const bool same = squared_norm(other.point - m.closest.point) < 1e-12 * size;
+    if (same && beyond <= 0.0) continue;
+    const PairForce own = force_of(held, surface, its, i, Depth{gap - its.distance, m.distance}, touch.widens);
+    if (same && own.stiffness <= (1.0 + equally_strong) * touch.pair.stiffness) continue;
     if (sums.further.size() == touch.first_further) sums.further.push_back({m, touch.pair, true, false, {}});
-    sums.further.push_back({its, force_of(held, surface, its, i, Depth{gap - its.distance, m.distance}, touch.widens), as_near, false, {}});
+    sums.further.push_back({its, own, as_near && !same, false, {}});
   }
   if (sums.further.size() == touch.first_further) return;
   const std::span<Further> all = std::span(sums.further).subspan(touch.first_further);

@@ -88,6 +88,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     borders_[at(f)] = static_cast<std::uint8_t>(borders);
   }
   largest_corner_stiffness_ = 0.0;
+  smallest_corner_stiffness_ = 1e300;
   for (Index s = 0; s < node_count(); ++s) {
     double sum = 0.0;
     double mean = 0.0;
@@ -106,6 +107,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     node_stiffness_[at(s)] = sum;
     corner_stiffness_[at(s)] = around > 0 ? mean / around : 0.0;
     largest_corner_stiffness_ = std::max(largest_corner_stiffness_, corner_stiffness_[at(s)]);
+    if (around > 0) smallest_corner_stiffness_ = std::min(smallest_corner_stiffness_, corner_stiffness_[at(s)]);
   }
 }
 

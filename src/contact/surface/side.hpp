@@ -40,6 +40,8 @@ class Side {
   /// Facet stiffness averaged at a node: the corner values of a field that is continuous over the surface.
   [[nodiscard]] double corner_stiffness(Index s) const { return corner_stiffness_[at(s)]; }
   [[nodiscard]] double largest_corner_stiffness() const { return largest_corner_stiffness_; }
+  /// All corners are equally stiff, to rounding.
+  [[nodiscard]] bool evenly_stiff() const { return smallest_corner_stiffness_ >= (1.0 - 1e-9) * largest_corner_stiffness_; }
   [[nodiscard]] double thickness(Index f) const { return thickness_.empty() ? 0.0 : thickness_[at(f)]; }
   [[nodiscard]] bool has_thickness() const { return !thickness_.empty(); }
 
@@ -74,7 +76,7 @@ class Side {
   std::vector<Index> listed_;  ///< facet number as the host listed it
   std::vector<std::uint8_t> active_, node_active_, borders_;
   std::vector<double> facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_;
-  double largest_corner_stiffness_ = 0.0;
+  double largest_corner_stiffness_ = 0.0, smallest_corner_stiffness_ = 0.0;  ///< of active corners
   std::vector<Vec3> x_;
 };
 

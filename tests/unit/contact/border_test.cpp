@@ -161,9 +161,9 @@ TEST(Border, force_of_a_facet_that_stores_more_is_the_gradient) {
 
 // The same surfaces: what is stored is, word for word (docs/theory/contact.md, 3), the largest that any facet has for the node.
 TEST(Border, stored_energy_is_the_largest_of_any_facet) {
-  const std::vector<std::function<double(double, double)>> shapes{
-      [](double x, double y) { return 0.2 * x * x + 0.15 * y * y; }, [](double x, double y) { return 0.15 * x * x - 0.2 * y * y; },
-      [](double x, double) { return 0.4 * std::abs(x); }};
+  const std::vector<std::function<double(double, double)>> shapes{[](double x, double y) { return 0.2 * x * x + 0.15 * y * y; },
+                                                                  [](double x, double y) { return 0.15 * x * x - 0.2 * y * y; },
+                                                                  [](double x, double) { return 0.4 * std::abs(x); }};
   std::mt19937 random(12);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   const double gap = 0.2;
@@ -175,8 +175,8 @@ TEST(Border, stored_energy_is_the_largest_of_any_facet) {
     std::vector<double> stiffness(facets.size());
     for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 4 < 2 ? 1.0 : 4.0;
     const auto n = static_cast<std::size_t>(host.add({}, 1.0));
-    for (int shot = 0; shot < 3000; ++shot) {
-      const double px = shot % 2 == 0 ? 0.75 * (shot % 3 - 1) + 0.05 * u(random) : 1.7 * u(random), py = 1.7 * u(random);
+    for (int shot = 0; shot < 6000; ++shot) {
+      const double px = shot % 2 == 0 ? 0.75 * (shot % 3 - 1) + 0.02 * u(random) : 1.7 * u(random), py = 1.7 * u(random);
       host.x[n] = {px, py, height(px, py) + 0.1 + 0.09 * u(random)};
       Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), still(gap));
       i.set_surface(1, {stiffness, {}, {}});
@@ -187,7 +187,8 @@ TEST(Border, stored_energy_is_the_largest_of_any_facet) {
       // The nearest point, and of every facet T, K and P*; a free node in front: strips are not widened.
       std::vector<Measure> all;
       const Measure* nearest = nullptr;
-      for (Index f = 0; f < side.facet_count(); ++f) all.push_back(signed_measure(side, f, closest_point(side.patch(f), host.x[n]), host.x[n]));
+      for (Index f = 0; f < side.facet_count(); ++f)
+        all.push_back(signed_measure(side, f, closest_point(side.patch(f), host.x[n]), host.x[n]));
       for (const Measure& m : all) {
         if (nearest == nullptr || m.closest.squared_distance < nearest->closest.squared_distance) nearest = &m;
       }
@@ -218,7 +219,7 @@ TEST(Border, stored_energy_is_the_largest_of_any_facet) {
   }
   std::printf("  %d nodes, another facet than the nearest for %d; differs by %.1e\n", compared, other, worst);
   EXPECT_GT(compared, 5000);
-  EXPECT_GT(other, 100);
+  EXPECT_GT(other, 50);
   EXPECT_LT(worst, 1e-14);
 }
 

@@ -141,6 +141,12 @@ inline std::vector<ClosedPathCase> closed_path_cases() {
   return cases;
 }
 
+inline std::vector<ClosedPathCase> curved_border_cases() {
+  return {{"saddle, y border", [](double x, double y) { return 0.1 * x * x - 0.1 * y * y; }, false, 0.1, 1.9, 1.2, 1.2},
+          {"dome, x border", [](double x, double y) { return std::sqrt(25.0 - x * x - y * y) - 5.0; }, false, 1.7, 0.05, 1.2, 1.2},
+          {"bowl, x border", [](double x, double y) { return 8.0 - std::sqrt(64.0 - x * x - y * y); }, false, 1.7, 0.05, 1.2, 1.2}};
+}
+
 /// Where the node is at 0 <= u <= 1: down on one spot, along three eighths of an ellipse at a changing depth, up on another, and back
 /// through the air.
 inline Vec3 on_closed_path(const ClosedPathCase& c, double gap, double p, double u) {

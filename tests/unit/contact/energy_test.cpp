@@ -108,10 +108,7 @@ TEST(ClosedPath, gives_its_work_back) {
 // Over the border of a curved surface, where two strips that are equally near have faded differently.
 TEST(ClosedPath, over_the_border_of_a_curved_surface) {
   double worst = 0.0;
-  const std::vector<ClosedPathCase> cases{
-      {"saddle, y border", [](double x, double y) { return 0.1 * x * x - 0.1 * y * y; }, false, 0.1, 1.9, 1.2, 1.2},
-      {"dome, x border", [](double x, double y) { return std::sqrt(25.0 - x * x - y * y) - 5.0; }, false, 1.7, 0.05, 1.2, 1.2},
-      {"bowl, x border", [](double x, double y) { return 8.0 - std::sqrt(64.0 - x * x - y * y); }, false, 1.7, 0.05, 1.2, 1.2}};
+  const std::vector<ClosedPathCase> cases = test::curved_border_cases();
   for (const ClosedPathCase& c : cases) {
     for (const double gap : {0.0, 0.2}) {
       for (const double p : {0.02, 0.1}) {
@@ -173,8 +170,13 @@ TEST(ClosedPathFull, random_laps_give_their_work_back) {
     const double p = gap > 0.0 ? gap * (0.1 + 0.8 * u(random)) : 0.02 + 0.13 * u(random);
     Rules rules = Rules::standard();
     rules.law = gap > 0.0 && u(random) < 0.5 ? Law::stiffening : Law::constant;
-    const ClosedPathCase c{"", heights[static_cast<std::size_t>(lap) % heights.size()], jump, 4 * u(random) - 2, 4 * u(random) - 2,
-                           0.6 + 0.8 * u(random), 0.6 + 0.8 * u(random)};
+    const ClosedPathCase c{"",
+                           heights[static_cast<std::size_t>(lap) % heights.size()],
+                           jump,
+                           4 * u(random) - 2,
+                           4 * u(random) - 2,
+                           0.6 + 0.8 * u(random),
+                           0.6 + 0.8 * u(random)};
     double net = test::net_of_lap(c, rules, gap, p, 20000);
     worst = std::max(worst, net);
     if (net > 1e-3) {

@@ -251,9 +251,14 @@ inline std::vector<Target> folds() {
   };
   const auto rough = [](double x, double y) { return 0.05 * std::sin(3 * x + 1.7 * y) + 0.04 * std::cos(2.3 * y - 1.1 * x); };
   const auto pit = [](double x, double y) { return 0.4 * std::max(std::abs(x), std::abs(y)); };
-  return {{"fold 10 convex", fold(10, -1), 1e-9}, {"fold 10 concave", fold(10, 1), 1e-9}, {"fold 45 convex", fold(45, -1), 1e-9},
-          {"fold 45 concave", fold(45, 1), 1e-9}, {"fold 90 convex", fold(90, -1), 1e-9}, {"fold 90 concave", fold(90, 1), 1e-9},
-          {"pit", pit, 0.3},                      {"rough", rough, 0.1}};
+  return {{"fold 10 convex", fold(10, -1), 1e-9},
+          {"fold 10 concave", fold(10, 1), 1e-9},
+          {"fold 45 convex", fold(45, -1), 1e-9},
+          {"fold 45 concave", fold(45, 1), 1e-9},
+          {"fold 90 convex", fold(90, -1), 1e-9},
+          {"fold 90 concave", fold(90, 1), 1e-9},
+          {"pit", pit, 0.3},
+          {"rough", rough, 0.1}};
 }
 
 /// z = curvature (x^2 + y^2): in front of its facets, which lie above it by up to a quarter of the curvature, is well in front of this.
