@@ -124,10 +124,11 @@ Index Surface::find(Index host_node) const {
 }
 
 std::vector<Index> Surface::canonical_order() const {
-  std::vector<Index> order(facets_.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [this](Index a, Index b) { return std::pair(sorted_nodes(local_[at(a)]), a) < std::pair(sorted_nodes(local_[at(b)]), b); });
+  std::vector<std::pair<std::array<Index, 4>, Index>> keys(facets_.size());
+  for (std::size_t f = 0; f < keys.size(); ++f) keys[f] = {sorted_nodes(local_[f]), static_cast<Index>(f)};
+  std::sort(keys.begin(), keys.end());
+  std::vector<Index> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
   return order;
 }
 
