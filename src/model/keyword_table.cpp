@@ -152,14 +152,16 @@ std::vector<std::string> line_of(std::vector<std::string> words, const std::stri
 std::vector<std::string> known_types(const std::string& keyword) {
   static const std::set<std::string> sets{"/GRNOD", "/GRSHEL", "/GRSH3N", "/GRBRIC", "/GRPART", "/SURF", "/BOX", "/SET"};
   static const std::vector<std::string> set_types{
-      "NODE",     "NODENS",     "PART",        "PART/EXT",   "PART/ALL", "SUBSET", "SUBSET/EXT", "SUBSET/ALL", "SUBMODEL", "MAT",
-      "MAT/EXT",  "MAT/ALL",    "PROP",        "PROP/EXT",   "PROP/ALL", "BOX",    "BOX/EXT",    "BOX/ALL",    "BOX2",     "SURF",
-      "SEG",      "LINE",       "GENE",        "GEN_INCR",   "GRNOD",    "GRSHEL", "GRSH3N",     "GRBRIC",     "GRPART",   "GRBRIC/EXT",
-      "GRQUAD",   "GRTRUS",     "GRBRIC/FREE", "GRBEAM",     "SHEL",     "SH3N",   "BRIC",       "RECTA",      "CYLIN",    "SPHER",
-      "GENERAL",  "COLLECT",    "PLANE",       "ELLIPS",     "MDELLIPS", "DSURF"};
-  static const std::map<std::string, std::vector<std::string>> other_types{
-      {"/ADMAS", {"0", "1", "2", "3", "4", "5", "6", "7"}},
-      {"/SKEW", {"FIX", "MOV", "MOV2"}}, {"/UNIT", {"MASS", "LENGTH", "TIME"}}, {"/RANDOM", {"GRNOD"}}, {"/SHFRA", {"V4"}}};
+      "NODE",    "NODENS",  "PART",        "PART/EXT", "PART/ALL", "SUBSET", "SUBSET/EXT", "SUBSET/ALL", "SUBMODEL", "MAT",
+      "MAT/EXT", "MAT/ALL", "PROP",        "PROP/EXT", "PROP/ALL", "BOX",    "BOX/EXT",    "BOX/ALL",    "BOX2",     "SURF",
+      "SEG",     "LINE",    "GENE",        "GEN_INCR", "GRNOD",    "GRSHEL", "GRSH3N",     "GRBRIC",     "GRPART",   "GRBRIC/EXT",
+      "GRQUAD",  "GRTRUS",  "GRBRIC/FREE", "GRBEAM",   "SHEL",     "SH3N",   "BRIC",       "RECTA",      "CYLIN",    "SPHER",
+      "GENERAL", "COLLECT", "PLANE",       "ELLIPS",   "MDELLIPS", "DSURF"};
+  static const std::map<std::string, std::vector<std::string>> other_types{{"/ADMAS", {"0", "1", "2", "3", "4", "5", "6", "7"}},
+                                                                           {"/SKEW", {"FIX", "MOV", "MOV2"}},
+                                                                           {"/UNIT", {"MASS", "LENGTH", "TIME"}},
+                                                                           {"/RANDOM", {"GRNOD"}},
+                                                                           {"/SHFRA", {"V4"}}};
   static const std::vector<std::string> history_types{"NODE",  "PART",  "SHEL",   "SH3N",  "BRIC",   "INTER",
                                                       "RWALL", "RBODY", "SECTIO", "ACCEL", "SPRING", "GRNOD"};
   const auto other = other_types.find(keyword);

@@ -60,9 +60,10 @@ TEST(KeywordTable, FieldsBehindIdsAndTypesOfTwoWordsAreFound) {
 TEST(KeywordTable, KeywordsThatADeckMayNotDoWithoutAreRead) {
   const std::vector<KeywordSupport> all = starter_keywords();
   for (const char* keyword :
-       {"/BEGIN", "/UNIT", "/TITLE", "/ANALY", "/DEF_SHELL", "/DEF_SOLID", "/SUBSET", "/NODE", "/PART", "/SHELL", "/SH3N", "/BRICK", "/TETRA4",
-        "/PROP/SHELL", "/PROP/SOLID", "/PROP/VOID", "/MAT/PLAS_JOHNS", "/MAT/ELAST", "/MAT/VOID", "/FUNCT", "/BCS", "/INIVEL/TRA", "/IMPVEL",
-        "/IMPDISP", "/CLOAD", "/RBODY", "/RWALL/PLANE", "/INTER/TYPE3", "/INTER/TYPE5", "/INTER/TYPE7", "/TH"}) {
+       {"/BEGIN",          "/UNIT",      "/TITLE",       "/ANALY",       "/DEF_SHELL",   "/DEF_SOLID",   "/SUBSET",     "/NODE",
+        "/PART",           "/SHELL",     "/SH3N",        "/BRICK",       "/TETRA4",      "/PROP/SHELL",  "/PROP/SOLID", "/PROP/VOID",
+        "/MAT/PLAS_JOHNS", "/MAT/ELAST", "/MAT/VOID",    "/FUNCT",       "/BCS",         "/INIVEL/TRA",  "/IMPVEL",     "/IMPDISP",
+        "/CLOAD",          "/RBODY",     "/RWALL/PLANE", "/INTER/TYPE3", "/INTER/TYPE5", "/INTER/TYPE7", "/TH"}) {
     EXPECT_EQ(find(all, keyword).treatment, Treatment::taken) << keyword;
   }
   const std::vector<std::pair<const char*, std::vector<const char*>>> sets{
