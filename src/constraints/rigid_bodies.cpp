@@ -35,7 +35,19 @@ RigidBodies::RigidBodies(const model::Model& model, const Profile& profile)
       bodies_(model.rigid_bodies.size()),
       sums_(model.rigid_bodies.size()),
       body_of_(at(model.node_count()), no_index),
-      main_of_(at(model.node_count()), no_index) {
+      main_of_(at(model.node_count()), no_index),
+      bound_(model.rigid_bodies.size(), false) {
+  std::vector<bool> bound(at(model.node_count()), false);
+  for (const model::BoundaryCondition& card : model.boundary_conditions) {
+    for (const Index node : card.nodes) bound[at(node)] = true;
+  }
+  for (const model::ImposedMotion& card : model.imposed_motions) {
+    for (const Index node : card.nodes) bound[at(node)] = true;
+  }
+  for (const model::RigidWall& card : model.rigid_walls) {
+    if (card.node != no_index) bound[at(card.node)] = true;
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bound_[i] = bound[at(model.rigid_bodies[i].main)];
   // Known before initialise(): constraints that are built next, and init, ask which nodes are secondary.
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const model::RigidBody& card = model.rigid_bodies[i];
@@ -110,8 +122,11 @@ Vec3 RigidBodies::angular_acceleration(const Body& body, const Vec3& torque, con
 }
 
 void RigidBodies::gather(state::State& state, const BoundaryConditions& conditions) {
-  follow_sensors(state);
   const double h_minus = state.times.h_minus;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].on) turn_axes(bodies_[i].inertia, h_minus * state.w[at(model_->rigid_bodies[i].main)]);
+  }
+  follow_sensors(state);  // those of a body that is switched on now are of x(n)
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     sums_[i].force = sums_[i].moment = Vec3{};
@@ -124,7 +139,8 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
     BodySums& sums = sums_[i];
     double k = 0.0, kr = 0.0;
     BodySprings springs;
-    if (conserving_) springs.add(Vec3{}, state.stiffness[main], state.rotational_stiffness[main]);
+    const Vec3 centre = centre_of(static_cast<Index>(i), state);
+    if (conserving_) springs.add(state.x[main] - centre, state.stiffness[main], state.rotational_stiffness[main]);
     for (const Index node : card.nodes) {
       const std::size_t s = at(node);
       const Vec3 r = state.x[s] - state.x[main];
@@ -132,7 +148,7 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
       sums.moment += state.m[s] + cross(r, state.f[s]);
       k += state.stiffness[s];
       kr += state.rotational_stiffness[s] + squared_norm(r) * state.stiffness[s];
-      if (conserving_) springs.add(r, state.stiffness[s], state.rotational_stiffness[s]);
+      if (conserving_) springs.add(state.x[s] - centre, state.stiffness[s], state.rotational_stiffness[s]);
       state.stiffness[s] = state.rotational_stiffness[s] = 1e-20;
     }
     sums.force_impulse += h_minus * sums.force;
@@ -142,7 +158,6 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
     state.stiffness[main] += k;
     state.rotational_stiffness[main] += kr;
 
-    turn_axes(body.inertia, h_minus * state.w[main]);
     if (conserving_) {
       // |r|^2 about every axis, over the least inertia: shorter steps than stability asks for, because the first and last forces of rigid
       // plates that land flat need them (EffectiveMass.*: with the frequency alone 2.7 % of the energy instead of 0.9 %).
@@ -152,10 +167,16 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
       state.rotational_stiffness[main] = rate * state.inertia[main];
       continue;
     }
-    const Vec3 torque = body.own_moment + sums.moment;
-    body.euler_alpha = angular_acceleration(body, torque, state.w[main], 0.0, conditions.held(card.main, true));
+    body.euler_alpha = angular_acceleration(body, torque(i, state), state.w[main], 0.0, conditions.held(card.main, true));
     state.m[main] = state.inertia[main] * body.euler_alpha;
   }
+}
+
+Vec3 RigidBodies::torque(std::size_t index, const state::State& state) const {
+  const Body& body = bodies_[index];
+  const std::size_t main = at(model_->rigid_bodies[index].main);
+  const Vec3 about_main = body.own_moment + sums_[index].moment;
+  return body.beside ? about_main + cross(state.x[main] - body.centre, state.f[main]) : about_main;
 }
 
 void RigidBodies::accelerate(state::State& state, const BoundaryConditions& conditions) {
@@ -165,8 +186,8 @@ void RigidBodies::accelerate(state::State& state, const BoundaryConditions& cond
     if (!body.on) continue;
     const Index node = model_->rigid_bodies[i].main;
     const std::size_t main = at(node);
-    const Vec3 torque = body.own_moment + sums_[i].moment;
-    body.euler_alpha = angular_acceleration(body, torque, state.w[main], state.times.h_bar, conditions.held(node, true));
+    body.euler_alpha = angular_acceleration(body, torque(i, state), state.w[main], state.times.h_bar, conditions.held(node, true));
+    if (body.beside) state.v[main] -= body.relative;
     state.alpha[main] = body.euler_alpha;
     state.m[main] = state.inertia[main] * body.euler_alpha;
   }
@@ -185,25 +206,29 @@ Vec3 RigidBodies::next_velocity(const state::State& state, const Carrier& carrie
   const std::size_t node = at(carrier.node);
   const double h = state.times.h_plus, hb = state.times.h_bar;
   const Vec3 v = state.v[node] + hb * state.a[node];
-  if (carrier.point == carrier.node) return v;
-  return v + chord(state.x[at(carrier.point)] - state.x[node], h * (state.w[node] + hb * state.alpha[node])) / h;
+  if (carrier.body == no_index) return v;
+  const Vec3 arm = state.x[at(carrier.point)] - centre_of(carrier.body, state);
+  return arm == Vec3{} ? v : v + chord(arm, h * (state.w[node] + hb * state.alpha[node])) / h;
 }
 
 void RigidBodies::push(state::State& state, const Carrier& carrier, const Vec3& impulse) const {
   const std::size_t node = at(carrier.node);
   const double hb = state.times.h_bar;
   if (state.mass[node] > 0.0) state.a[node] += carrier.translation.free_part(impulse) / (state.mass[node] * hb);
-  if (carrier.point == carrier.node) return;
-  const Vec3 arm = state.x[at(carrier.point)] - state.x[node];
+  if (carrier.body == no_index) return;
+  const Vec3 arm = state.x[at(carrier.point)] - centre_of(carrier.body, state);
+  if (arm == Vec3{}) return;
   state.alpha[node] += solve_free(bodies_[at(carrier.body)].inertia, cross(arm, impulse), carrier.rotation) / hb;
 }
 
 void RigidBodies::scatter(state::State& state) {
   const double h = state.times.h_plus, hb = state.times.h_bar, h_minus = state.times.h_minus;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].on) continue;
+    Body& body = bodies_[i];
+    if (!body.on) continue;
     const model::RigidBody& card = model_->rigid_bodies[i];
     const std::size_t main = at(card.main);
+    const Vec3 centre = centre_of(static_cast<Index>(i), state);
     const Vec3 w = state.w[main] + hb * state.alpha[main];
     const Vec3 v = state.v[main] + hb * state.a[main];
     const Vec3 angle = h * w;
@@ -214,7 +239,7 @@ void RigidBodies::scatter(state::State& state) {
     const bool small_body = card.nodes.size() <= 2;
     for (const Index node : card.nodes) {
       const std::size_t s = at(node);
-      const Vec3 r = state.x[s] - state.x[main];
+      const Vec3 r = state.x[s] - centre;
       Vec3 relative{};
       if (conserving_ || small_body) {
         relative = chord(r, angle) / h;
@@ -226,12 +251,21 @@ void RigidBodies::scatter(state::State& state) {
       state.a[s] = (v + relative - state.v[s]) / hb;
       state.alpha[s] = (w - state.w[s]) / hb;
     }
+    if (!body.beside) continue;
+    body.centre_v = state.v[main];
+    body.centre_a = state.a[main];
+    body.centre += h * v;
+    state.v[main] += body.relative;
+    body.relative = chord(state.x[main] - centre, angle) / h;
+    state.a[main] = (v + body.relative - state.v[main]) / hb;
   }
 }
 
 void RigidBodies::persist(state::Archive& a) {
   a.each(bodies_, [&a](Body& b) {
     a(b.on);
+    a(b.beside);
+    for (Vec3* v : {&b.centre, &b.relative, &b.centre_v, &b.centre_a}) a(*v);
     a(b.inertia.mass);
     a(b.inertia.principal);
     a(b.inertia.axes);
@@ -261,7 +295,7 @@ void RigidBodies::persist(state::Archive& a) {
 RigidBodies::Answer RigidBodies::answer(const state::State& state, Index body, const BoundaryConditions::Held& translation,
                                         const BoundaryConditions::Held& rotation) const {
   const std::size_t main = at(model_->rigid_bodies[at(body)].main);
-  Answer r{translation.mobility(state.mass[main]), {}, state.x[main]};
+  Answer r{translation.mobility(state.mass[main]), {}, centre_of(body, state)};
   for (int k = 0; k < 3; ++k) {
     Vec3 unit{};
     unit[k] = 1.0;

@@ -29,6 +29,10 @@ struct EnergyCorrection {
   Vec3 momentum;
 };
 
+/// Standard profile: a main node that stays where it is beside the centre of gravity (ICoG 3, or switched on by a sensor) is one more
+/// point of the body. Momentum, inertia and Euler's equations are those of the centre of gravity; from accelerate() to scatter() the
+/// main node's entries of v and a hold the centre's velocity and acceleration, so that gravity and walls act on the centre. A main node
+/// with boundary conditions, imposed motions or a wall carries the body's mass itself, as in the reference profile.
 class RigidBodies {
  public:
   explicit RigidBodies(const model::Model& model, const Profile& profile = {});
@@ -50,9 +54,9 @@ class RigidBodies {
 
   /// Step 11: f, m, stiffness and rotational stiffness of secondary nodes go to the main node; their own stiffness is reset to
   /// 1e-20 (they do not control the step), their f is kept for output. In the standard profile the main node's two stiffnesses are
-  /// then its mass and inertia times the square of the body's largest frequency (body_frequency.hpp). Turns the principal axes by w h_-.
-  /// Reference profile: sets the main node's moment to inertia times the angular acceleration of Euler's equations, so that alpha = m /
-  /// inertia holds for it too.
+  /// then its mass and inertia times the square of the body's largest frequency (body_frequency.hpp). Turns the principal axes by w h_-
+  /// first. Reference profile: sets the main node's moment to inertia times the angular acceleration of Euler's equations, so that alpha =
+  /// m / inertia holds for it too.
   void gather(state::State& state, const BoundaryConditions& conditions);
 
   /// After step 16, standard profile: angular acceleration of the main nodes by Euler's equations, over the step that is now
@@ -61,6 +65,8 @@ class RigidBodies {
 
   /// Step 13, mass scaling of a main node: the body gains mass where its main node is ...
   void add_mass(Index body, double mass) { bodies_[static_cast<std::size_t>(body)].inertia.mass += mass; }
+  /// ... and brings the velocity of the centre of gravity.
+  [[nodiscard]] Vec3 centre_velocity(Index body, const state::State& state) const;
   /// ... and its tensor, with the main node's inertia, grows by a factor.
   /// @return kinetic energy that this brings at the main node's angular velocity
   double scale_inertia(Index body, double factor, state::State& state);
@@ -89,6 +95,13 @@ class RigidBodies {
     Frame axes{};
   };
   [[nodiscard]] const Inertia& inertia(Index body) const { return bodies_[static_cast<std::size_t>(body)].inertia; }
+  /// Velocity of an active body's main node relative to the centre of gravity at n - 1/2; zero where the node is the centre.
+  [[nodiscard]] const Vec3& relative_velocity(Index body) const { return bodies_[static_cast<std::size_t>(body)].relative; }
+  /// Step 25: velocity n - 1/2 and acceleration of the mass that the node carries: its own, or those of its body's centre of gravity.
+  struct Motion {
+    Vec3 v, a;
+  };
+  [[nodiscard]] Motion carried_motion(Index node, const state::State& state) const;
   /// J b, J the body's inertia tensor at t^n.
   [[nodiscard]] Vec3 times_inertia(Index body, const Vec3& b) const;
 
@@ -123,6 +136,10 @@ class RigidBodies {
  private:
   struct Body {
     bool on = false;
+    bool beside = false;      ///< the main node is beside the centre of gravity; else the next four are not used
+    Vec3 centre;              ///< of gravity, t^n
+    Vec3 relative;            ///< velocity of the main node less the centre's, n - 1/2
+    Vec3 centre_v, centre_a;  ///< of the cycle, from scatter() on
     Inertia inertia;
     double own_mass = 0.0, own_inertia = 0.0;  ///< of the main node alone
     Vec3 own_moment;                           ///< moment on the main node alone, this cycle
@@ -137,6 +154,11 @@ class RigidBodies {
   void compute_inertia(std::size_t index, state::State& state, int icog, bool card_values);
   void claim(std::size_t index, bool on);
   void turn_axes(Inertia& inertia, const Vec3& angle) const;
+  [[nodiscard]] const Vec3& centre_of(Index body, const state::State& state) const {
+    const Body& b = bodies_[static_cast<std::size_t>(body)];
+    return b.beside ? b.centre : state.x[static_cast<std::size_t>(model_->rigid_bodies[static_cast<std::size_t>(body)].main)];
+  }
+  [[nodiscard]] Vec3 torque(std::size_t index, const state::State& state) const;
   [[nodiscard]] Vec3 angular_acceleration(const Body& body, const Vec3& torque, const Vec3& w, double h_bar,
                                           const BoundaryConditions::Held& held) const;
   /// Kinetic energy of the body's nodes as free nodes, or as a body, from the half-step velocities.
@@ -148,6 +170,7 @@ class RigidBodies {
   std::vector<Body> bodies_;
   std::vector<BodySums> sums_;
   std::vector<Index> body_of_, main_of_;
+  std::vector<bool> bound_;  ///< per body: the main node has conditions, an imposed motion or a wall
   int revision_ = 0;
 };
 

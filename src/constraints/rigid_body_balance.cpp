@@ -27,10 +27,21 @@ EnergyCorrection RigidBodies::energy_correction(const state::State& state) const
       sum.momentum -= state.mass[s] * v;
     }
     const std::size_t main = at(card.main);
+    if (bodies_[i].beside) {
+      const Vec3 v = state.v[main] + half * state.a[main], centre = bodies_[i].centre_v + half * bodies_[i].centre_a;
+      sum.translation += 0.5 * state.mass[main] * (squared_norm(centre) - squared_norm(v));
+      sum.momentum += state.mass[main] * (centre - v);
+    }
     const Vec3 w = state.w[main] + half * state.alpha[main];
     sum.rotation += 0.5 * dot(w, times(bodies_[i].inertia, w)) - 0.5 * state.inertia[main] * squared_norm(w);
   }
   return sum;
+}
+
+RigidBodies::Motion RigidBodies::carried_motion(Index node, const state::State& state) const {
+  const Index body = main_of(node);
+  if (body != no_index && bodies_[at(body)].beside) return {bodies_[at(body)].centre_v, bodies_[at(body)].centre_a};
+  return {state.v[at(node)], state.a[at(node)]};
 }
 
 double RigidBodies::ledger_correction(const state::State& state) const {
@@ -46,6 +57,10 @@ double RigidBodies::ledger_correction(const state::State& state) const {
       sum -= 0.5 * state.inertia[s] * dot(state.w[s], w_star(s));
     }
     const std::size_t main = at(card.main);
+    if (bodies_[i].beside) {
+      const Vec3 &v = state.v[main], &centre = bodies_[i].centre_v;
+      sum += 0.5 * state.mass[main] * (dot(centre, centre + hb * bodies_[i].centre_a) - dot(v, v + hb * state.a[main]));
+    }
     sum += 0.5 * dot(times(bodies_[i].inertia, state.w[main]) - state.inertia[main] * state.w[main], w_star(main));
   }
   return sum;
@@ -66,7 +81,10 @@ double RigidBodies::ledger_work(const state::State& state) {
     const std::size_t main = at(card.main);
     const Vec3 moment = body.own_moment + times(body.inertia, state.alpha[main] - body.euler_alpha);
     const auto power = [&](double step) {  // of everything that others book, at v + step a
-      double p = dot(moment, state.w[main] + step * state.alpha[main]) - dot(sums_[i].force, state.v[main] + step * state.a[main]);
+      double p = dot(moment, state.w[main] + step * state.alpha[main]);
+      const Vec3 v = state.v[main] + step * state.a[main];
+      p -= dot(sums_[i].force, v);
+      if (body.beside) p -= dot(state.f[main], body.centre_v + step * body.centre_a - v);  // the body's force acts on its centre
       for (const Index node : card.nodes) {
         const std::size_t s = at(node);
         p += dot(state.f[s], state.v[s] + step * state.a[s]) + dot(state.m[s], state.w[s] + step * state.alpha[s]);

@@ -31,7 +31,11 @@ void RigidBodies::compute_inertia(std::size_t index, state::State& state, int ic
   const Vec3 old = state.x[main];
   if (icog == 1 && m0 + secondary_mass > 0.0) state.x[main] = (m0 * old + moment) / (m0 + secondary_mass);
   if (icog == 2 && secondary_mass > 0.0) state.x[main] = moment / secondary_mass;
-  const Vec3 centre = state.x[main];
+  body.beside = conserving_ && icog == 3 && !bound_[index] && m0 + secondary_mass > 0.0;
+  const Vec3 centre = body.beside ? (m0 * old + moment) / (m0 + secondary_mass) : state.x[main];
+  body.centre = centre;
+  body.beside = body.beside && !(centre == old);
+  body.relative = body.centre_v = body.centre_a = Vec3{};
 
   Symmetric j{body.own_inertia, body.own_inertia, body.own_inertia, 0.0, 0.0, 0.0};
   if (card_values) {
@@ -74,22 +78,31 @@ void RigidBodies::switch_on(std::size_t index, state::State& state, bool at_star
   const model::RigidBody& card = model_->rigid_bodies[index];
   Body& body = bodies_[index];
   const std::size_t main = at(card.main);
+  const auto follow_centre = [&] {
+    if (!body.beside) return;
+    body.relative = cross(state.w[main], state.x[main] - body.centre);
+    body.centre_v = state.v[main] - body.relative;
+  };
   if (at_start) {
     compute_inertia(index, state, card.sensor == no_index ? card.icog : 3, card.sensor == no_index);
+    follow_centre();
   } else {
     // Perfectly plastic impact: the body takes over the momentum and the angular momentum of its nodes.
     const double before = free_energy(index, state);
-    Vec3 momentum = state.mass[main] * state.v[main];
+    const Vec3 own_momentum = state.mass[main] * state.v[main];
+    Vec3 momentum = own_momentum;
     Vec3 spin = state.inertia[main] * state.w[main];
     compute_inertia(index, state, 3, false);
     for (const Index node : card.nodes) {
       const Vec3 p = state.mass[at(node)] * state.v[at(node)];
       momentum += p;
-      spin += cross(state.x[at(node)] - state.x[main], p) + state.inertia[at(node)] * state.w[at(node)];
+      spin += cross(state.x[at(node)] - centre_of(static_cast<Index>(index), state), p) + state.inertia[at(node)] * state.w[at(node)];
     }
-    // About the main node, which need not be the centre of gravity: the offset's share is carried by the velocity of the main node.
-    if (state.mass[main] > 0.0) state.v[main] = momentum / state.mass[main];
+    spin += cross(state.x[main] - centre_of(static_cast<Index>(index), state), own_momentum);
     state.w[main] = times_inverse(body.inertia, spin);
+    if (state.mass[main] > 0.0) state.v[main] = momentum / state.mass[main];
+    if (body.beside) state.v[main] += cross(state.w[main], state.x[main] - body.centre);
+    follow_centre();
     claim(index, true);
     body.switch_work += rigid_energy(index, state) - before;
   }
@@ -107,6 +120,7 @@ void RigidBodies::switch_off(std::size_t index, state::State& state) {
   state.mass[at(card.main)] = body.own_mass;
   state.inertia[at(card.main)] = body.own_inertia;
   claim(index, false);
+  body.beside = false;
   // The second halves of the last cycle are booked here: rigid_energy() is the rotational energy that T* has grown to.
   body.switch_work += free_energy(index, state) - before;
   body.switch_work += 0.5 * dot(state.w[at(card.main)], times(body.inertia, state.w[at(card.main)])) - body.rotation_before;
@@ -124,7 +138,13 @@ double RigidBodies::free_energy(std::size_t index, const state::State& state) co
 
 double RigidBodies::rigid_energy(std::size_t index, const state::State& state) const {
   const std::size_t main = at(model_->rigid_bodies[index].main);
-  return 0.5 * state.mass[main] * squared_norm(state.v[main]) + 0.5 * dot(state.w[main], times(bodies_[index].inertia, state.w[main]));
+  return 0.5 * state.mass[main] * squared_norm(centre_velocity(static_cast<Index>(index), state)) +
+         0.5 * dot(state.w[main], times(bodies_[index].inertia, state.w[main]));
+}
+
+Vec3 RigidBodies::centre_velocity(Index body, const state::State& state) const {
+  const Vec3& v = state.v[at(model_->rigid_bodies[at(body)].main)];
+  return bodies_[at(body)].beside ? v - bodies_[at(body)].relative : v;
 }
 
 double RigidBodies::scale_inertia(Index index, double factor, state::State& state) {

@@ -12,11 +12,10 @@ std::vector<Index> touched_nodes(const model::Model& model) {
   std::vector<Index> nodes;
   for (const model::RigidWall& w : model.rigid_walls) {
     nodes.insert(nodes.end(), w.nodes.begin(), w.nodes.end());
-    if (w.node == no_index) continue;
-    nodes.push_back(w.node);
-    for (const model::RigidBody& body : model.rigid_bodies) {
-      if (std::find(body.nodes.begin(), body.nodes.end(), w.node) != body.nodes.end()) nodes.push_back(body.main);
-    }
+    if (w.node != no_index) nodes.push_back(w.node);
+  }
+  if (!model.rigid_walls.empty()) {  // a body is moved by what touches its nodes
+    for (const model::RigidBody& body : model.rigid_bodies) nodes.push_back(body.main);
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -54,6 +53,8 @@ RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies, con
       if (node != card.node && !removed[static_cast<std::size_t>(node)]) walls_[i].nodes.push_back(node);
     }
     if (card.filter_kind != 0) walls_[i].filtered.resize(walls_[i].nodes.size());
+    walls_[i].pressing.reserve(walls_[i].nodes.size());
+    if (!model.rigid_bodies.empty()) points_.reserve(std::max(points_.capacity(), walls_[i].nodes.size()));
   }
 }
 
@@ -85,6 +86,17 @@ void RigidWalls::apply(state::State& state) {
   meter_.before(state);
   for (std::size_t i = 0; i < walls_.size(); ++i) apply_wall(i, state);
   meter_.after(state);
+}
+
+void RigidWalls::add_forces(std::span<Vec3> force) const {
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const Index node = model_->rigid_walls[i].node;
+    if (node != no_index) {
+      force[static_cast<std::size_t>(node)] += sums_[i].normal_force + sums_[i].tangential_force;
+      continue;
+    }
+    for (const auto& [pressing, f] : walls_[i].pressing) force[static_cast<std::size_t>(pressing)] += f;
+  }
 }
 
 void RigidWalls::persist(state::Archive& a) {
@@ -158,9 +170,11 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   const double h = state.times.h_plus, hb = state.times.h_bar, h_minus = state.times.h_minus;
   const Vec3 n = card.normal;
 
-  Vec3 wall_velocity{}, wall_point = card.point;
-  RigidBodies::Carrier carrier;
-  bool yields = false;  // the impact changes the wall's own velocity in this cycle
+  Plane plane;
+  plane.point = card.point;
+  Vec3 &wall_velocity = plane.velocity, &wall_point = plane.point;
+  RigidBodies::Carrier& carrier = plane.carrier;
+  bool& yields = plane.yields;
   if (card.node != no_index) {
     const auto k = static_cast<std::size_t>(card.node);
     if (same_cycle_) {
@@ -180,7 +194,7 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
 
   Vec3 normal_impulse{}, tangential_impulse{};
   double impacted = 0.0;
-  wall.count = 0;
+  wall.pressing.clear();
   for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(wall.nodes[k]);
     const Vec3 predicted = state.v[i] + hb * state.a[i];
@@ -228,15 +242,17 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
     normal_impulse += j_n * n;
     tangential_impulse += j_t;
     impacted += mass;
-    ++wall.count;
+    wall.pressing.emplace_back(wall.nodes[k], (j_n * n + j_t) / hb);
   }
+  if (yields) bodies_->push(state, carrier, normal_impulse + tangential_impulse);
+  if (same_cycle_) stop_bodies(index, plane, state, normal_impulse, tangential_impulse);
+  wall.count = static_cast<Index>(wall.pressing.size());
   WallSums& sums = sums_[index];
   sums.normal_force = normal_impulse / hb;
   sums.tangential_force = tangential_impulse / hb;
   sums.normal_impulse += normal_impulse;
   sums.tangential_impulse += tangential_impulse;
   wall.reaction = (normal_impulse + tangential_impulse) / hb;
-  if (yields) bodies_->push(state, carrier, normal_impulse + tangential_impulse);
   wall.impacted_mass = impacted;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "constraints/boundary_conditions.hpp"
@@ -26,8 +27,15 @@ struct WallSums {
 /// gained (P p / M of a node, P the projection on its free directions; with the turn r x p of a body, RigidBodies::response),
 ///   V_w = V_p + A N sum m (v* - V_p).N / (1 + N.AN sum m)  over the nodes in contact; tied: V_p + A (1 + A sum m)^-1 sum m (v* - V_p),
 /// and the carrier gets the impulse sum J. The wall's plane keeps its normal, so its nodes press on it as if at its own node: the
-/// couple of their offsets along the plane is the guide's. Nodes that follow a rigid body are not tested while they do: the body would
-/// overwrite what the wall does to them. Reference profile: numerics.md 6.1.5.
+/// couple of their offsets along the plane is the guide's. Reference profile: numerics.md 6.1.5; a rigid body overwrites what a wall
+/// does to its nodes.
+///
+/// Points of a rigid body (its main node, and its secondary nodes unless Ikrem = 0 takes them out), standard profile: the wall stops the
+/// body. Impulses p_i on the points that would cross, such that with V_i the velocity of point i after the impact
+///   0 <= p_i.N  _|_  (V_i - V_w).N >= 0,   |p_i,t| <= mu p_i.N, against the slip where it slips     [Moreau 1988], [Jean 1999]
+/// (mu = 0 without friction; without bound when tied), by projected Gauss-Seidel over the points in the order of the wall's nodes,
+/// until no sweep changes a velocity by more than 1e-13 of the approach. The body gets p_i and its moment by RigidBodies::push, a moving
+/// wall the opposite impulse, after the free nodes. Friction of these points is not filtered.
 class RigidWalls {
  public:
   RigidWalls(const model::Model& model, const RigidBodies& bodies, const BoundaryConditions& conditions, const ImposedMotions& motions,
@@ -52,21 +60,39 @@ class RigidWalls {
   void persist(state::Archive& a);
 
   [[nodiscard]] std::span<const WallSums> results() const { return sums_; }  ///< per model rigid wall
+  /// Force on each wall of this cycle: at the node that carries it, else at the nodes that press on it. Added to `force`, #N.
+  void add_forces(std::span<Vec3> force) const;
   [[nodiscard]] Index in_contact(Index wall) const { return walls_[static_cast<std::size_t>(wall)].count; }
 
  private:
   struct Wall {
-    std::vector<Index> nodes;    ///< tested nodes, main excluded
-    std::vector<Vec3> filtered;  ///< friction filter: last tangential impulse per node
-    Vec3 reaction;               ///< on the main node, of the previous cycle
-    double impacted_mass = 0.0;  ///< of the previous cycle
-    Index count = 0;             ///< nodes in contact in this cycle
+    std::vector<Index> nodes;                      ///< tested nodes, main excluded
+    std::vector<Vec3> filtered;                    ///< friction filter: last tangential impulse per node
+    Vec3 reaction;                                 ///< on the main node, of the previous cycle
+    double impacted_mass = 0.0;                    ///< of the previous cycle
+    Index count = 0;                               ///< nodes in contact in this cycle
+    std::vector<std::pair<Index, Vec3>> pressing;  ///< these, with the force on the wall
+  };
+  /// A point of a rigid body that a wall may stop.
+  struct Point {
+    RigidBodies::Carrier carrier;
+    Vec3 impulse;  ///< on the body
+  };
+  /// The wall in a cycle.
+  struct Plane {
+    Vec3 point, velocity;  ///< at t^(n+1), at n + 1/2
+    RigidBodies::Carrier carrier;
+    bool yields = false;  ///< an impact changes the velocity in this cycle
   };
   void apply_wall(std::size_t index, state::State& state);
+  void stop_bodies(std::size_t index, Plane& plane, state::State& state, Vec3& normal_impulse, Vec3& tangential_impulse);
+  double press(const model::RigidWall& card, Point& point, Plane& plane, state::State& state) const;
   [[nodiscard]] RigidBodies::Carrier carrier_of(Index node) const;
   [[nodiscard]] Vec3 velocity_after_impact(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
                                            const Vec3& point, const RigidBodies::Carrier& carrier) const;
-  [[nodiscard]] bool tested(Index node) const { return !same_cycle_ || bodies_->body_of(node) == no_index; }
+  [[nodiscard]] bool of_body(Index node) const { return bodies_->body_of(node) != no_index || bodies_->main_of(node) != no_index; }
+  /// As a node of its own.
+  [[nodiscard]] bool tested(Index node) const { return !same_cycle_ || !of_body(node); }
   [[nodiscard]] bool reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const;
 
   const model::Model* model_;
@@ -76,6 +102,7 @@ class RigidWalls {
   bool same_cycle_;
   std::vector<Wall> walls_;
   std::vector<WallSums> sums_;
+  std::vector<Point> points_;  ///< of the wall at work
   double work_ = 0.0;
   WorkMeter meter_;
 };

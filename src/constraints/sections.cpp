@@ -94,6 +94,14 @@ void Sections::gather(const state::State& state, std::span<const double> slots) 
   }
 }
 
+Vec3 Sections::global_moment(Index section) const {
+  const auto i = static_cast<std::size_t>(section);
+  const Vec3& m = sums_[i].moment;
+  if (model_->sections[i].iframe >= 10) return m;
+  const Frame& e = sections_[i].frame;
+  return m.x * e[0] + m.y * e[1] + m.z * e[2];
+}
+
 void Sections::persist(state::Archive& a) {
   a.each(sections_, [&a](Section& section) { a(section.frame); });
   a.each(sums_, [&a](SectionSums& s) {

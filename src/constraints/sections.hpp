@@ -39,6 +39,7 @@ class Sections {
   void persist(state::Archive& a);
 
   [[nodiscard]] std::span<const SectionSums> results() const { return sums_; }  ///< per model section
+  [[nodiscard]] Vec3 global_moment(Index section) const;                        ///< along global axes, whatever Iframe
   [[nodiscard]] const Frame& frame(Index section) const { return sections_[static_cast<std::size_t>(section)].frame; }
 
  private:

@@ -67,8 +67,10 @@ double WorkMeter::settle(const state::State& state) {
     const Index body = bodies_ == nullptr ? no_index : bodies_->main_of(nodes_[k]);
     const Vec3 force = state.mass[i] * da_[k];
     const Vec3 moment = body == no_index ? state.inertia[i] * dalpha_[k] : bodies_->times_inertia(body, dalpha_[k]);
-    first += dot(force, state.v[i]) + dot(moment, state.w[i]);
-    second += dot(force, state.v[i] + hb * state.a[i]) + dot(moment, state.w[i] + hb * state.alpha[i]);
+    const RigidBodies::Motion moved =
+        body == no_index ? RigidBodies::Motion{state.v[i], state.a[i]} : bodies_->carried_motion(nodes_[k], state);
+    first += dot(force, moved.v) + dot(moment, state.w[i]);
+    second += dot(force, moved.v + hb * moved.a) + dot(moment, state.w[i] + hb * state.alpha[i]);
     da_[k] = dalpha_[k] = Vec3{};
   }
   for (const auto& [node, force] : forces_) {

@@ -15,8 +15,13 @@ struct Profile {
   enum class SystemStep { nodal, reference };
   /// Rotational hourglass viscosity of the one-point shell: dimensionally homogeneous, or the reference's constants.
   enum class RotationalHourglass { homogeneous, reference };
+  /// Quadratic hourglass viscosity of the one-point brick: on the size of a mode's rate, which does not know the axes; or on each
+  /// component of its own, which does.
+  enum class HourglassViscosity { objective, components };
   /// Energy increment of hourglass forces: trapezoidal, or with the end-of-step force.
   enum class HourglassEnergy { trapezoidal, end_of_step };
+  /// Internal energy of bricks of small strain: the work of their forces, on the volume of cycle 0; or on the mean volume of the step.
+  enum class SmallStrainEnergy { work, mean_volume };
   /// Stretch that a finite rotation over one step leaves in shells of Ishell 1 and 2: removed, or the reference's correction,
   /// which is twice as large.
   enum class ShellRotation { exact, reference };
@@ -43,7 +48,9 @@ struct Profile {
   KineticEnergy kinetic_energy = KineticEnergy::leapfrog;
   ExternalWork external_work = ExternalWork::discrete;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
+  HourglassViscosity hourglass_viscosity = HourglassViscosity::objective;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
+  SmallStrainEnergy small_strain_energy = SmallStrainEnergy::work;
   ShellRotation shell_rotation = ShellRotation::exact;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
@@ -60,7 +67,9 @@ struct Profile {
     p.kinetic_energy = KineticEnergy::midpoint;
     p.external_work = ExternalWork::booked;
     p.rotational_hourglass = RotationalHourglass::reference;
+    p.hourglass_viscosity = HourglassViscosity::components;
     p.hourglass_energy = HourglassEnergy::end_of_step;
+    p.small_strain_energy = SmallStrainEnergy::mean_volume;
     p.shell_rotation = ShellRotation::reference;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;

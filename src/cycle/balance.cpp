@@ -185,19 +185,41 @@ void Cycle::fill_contact_fields() {
   contact_facets_.write(state_.x, interfaces_, contact_area_);
 }
 
+void Cycle::fill_option_forces() {
+  if (model_.rigid_bodies.empty() && model_.rigid_walls.empty() && model_.sections.empty()) return;
+  option_force_.assign(state_.mass.size(), {});
+  option_moment_.assign(state_.mass.size(), {});
+  for (std::size_t i = 0; i < model_.rigid_bodies.size(); ++i) {
+    const auto main = static_cast<std::size_t>(model_.rigid_bodies[i].main);
+    option_force_[main] += bodies_.results()[i].force;
+    option_moment_[main] += bodies_.results()[i].moment;
+  }
+  walls_.add_forces(option_force_);
+  for (std::size_t i = 0; i < model_.sections.size(); ++i) {
+    const Index node = model_.sections[i].frame_nodes[0];
+    if (node == no_index) continue;
+    option_force_[static_cast<std::size_t>(node)] += sections_.results()[i].normal_force + sections_.results()[i].tangential_force;
+    option_moment_[static_cast<std::size_t>(node)] += sections_.global_moment(static_cast<Index>(i));
+  }
+}
+
 Snapshot Cycle::view() {
   fill_contact_fields();
+  fill_option_forces();
   return snapshot();
 }
 
 Snapshot Cycle::snapshot_of_cycle() {
   if (animation_due_) {
     fill_contact_fields();
+    fill_option_forces();
   } else if (!contact_normal_.empty()) {  // as large as half the state, and of use in few cycles
     contact_normal_ = {};
     contact_tangential_ = {};
     contact_area_ = {};
     contact_state_ = {};
+    option_force_ = {};
+    option_moment_ = {};
   }
   Snapshot s = snapshot();
   s.history_due = history_due_;
@@ -220,6 +242,10 @@ Snapshot Cycle::snapshot() const {
   s.contact_tangential = contact_tangential_;
   s.contact_area = contact_area_;
   s.contact_state = contact_state_;
+  s.option_force = option_force_;
+  s.option_moment = option_moment_;
+  s.added_mass = time_step_->added_masses();
+  s.nodal_scale = time_step_->nodal_scale();
   s.walls = walls_.results();
   s.bodies = bodies_.results();
   s.sections = sections_.results();

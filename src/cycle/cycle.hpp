@@ -82,6 +82,7 @@ class Cycle {
   [[nodiscard]] Snapshot snapshot() const;
   [[nodiscard]] Snapshot snapshot_of_cycle();
   void fill_contact_fields();
+  void fill_option_forces();
   void persist_output_times(state::Archive& a);
   [[nodiscard]] double take_over_edits();
   [[nodiscard]] Id element_id(const elements::Group& group, Index element) const;
@@ -115,8 +116,9 @@ class Cycle {
   ContactArea contact_facets_;
   std::vector<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;
-  bool releases_ = false;       // some interface asks for IBC
-  bool loaded_ = false;         // there are concentrated or pressure loads; else external forces stay zero
+  std::vector<Vec3> option_force_, option_moment_;  // #N when an animation is due and there are such options
+  bool releases_ = false;                           // some interface asks for IBC
+  bool loaded_ = false;                             // there are concentrated or pressure loads; else external forces stay zero
   bool totals_wanted_ = false;  // bodies, walls or mass scaling read or change the total forces or the masses after assembly
   bool held_again_ = false;     // what comes after the boundary conditions may move what they hold
   bool rotations_ = false;      // some node has inertia, or can be turned by a condition

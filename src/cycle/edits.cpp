@@ -24,7 +24,9 @@ double Cycle::take_over_edits() {
   const auto own = [this](std::size_t i) { return bodies_.body_of(static_cast<Index>(i)) == no_index; };  // not moved by a body
   for (std::size_t i = 0; i < edited_v_.size(); ++i) {
     if (!own(i)) continue;
-    work += 0.5 * state_.mass[i] * dot(edited_v_[i] - state_.v[i], edited_v_[i] + state_.v[i]);
+    const Index body = bodies_.main_of(static_cast<Index>(i));
+    const Vec3 relative = body == no_index ? Vec3{} : bodies_.relative_velocity(body);  // of a main node beside the centre of its mass
+    work += 0.5 * state_.mass[i] * dot(edited_v_[i] - state_.v[i], edited_v_[i] + state_.v[i] - 2.0 * relative);
     state_.v[i] = edited_v_[i];
   }
   for (std::size_t i = 0; rotations_ && i < edited_w_.size(); ++i) {

@@ -48,6 +48,12 @@ struct Snapshot {
   std::span<const Vec3> contact_tangential;              ///< #N by 3
   std::span<const double> contact_area;                  ///< #N, tributary area of contact surfaces (0: not on one)
   std::span<const contact::NodalContact> contact_state;  ///< #N, of all interfaces
+  /// Empty unless animation_due and there are such options; #N by 3. Rigid bodies: force and moment of the secondary nodes, at the main
+  /// node. Walls: force on the wall, at the node that carries it, else at each node that presses on it. Sections: force and moment (global
+  /// axes), at the first node of their frame. Sums where several meet.
+  std::span<const Vec3> option_force, option_moment;
+  std::span<const double> added_mass;  ///< #N by mass scaling so far; empty: none
+  double nodal_scale = 0.0;            ///< factor of the step of nodes
   std::span<const WallResult> walls;
   std::span<const BodyResult> bodies;
   std::span<const SectionResult> sections;

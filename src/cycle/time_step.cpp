@@ -81,7 +81,7 @@ double TimeStep::scale_masses(state::State& s, constraints::RigidBodies& bodies)
       if (body != no_index) bodies.add_mass(body, more);
       added_[i] += more;
       added_mass_ += more;
-      energy += 0.5 * more * squared_norm(s.v[i]);
+      energy += 0.5 * more * squared_norm(body == no_index ? s.v[i] : bodies.centre_velocity(body, s));
       if (scaled_node_ == no_index) scaled_node_ = node;
     }
     if ((all || free_rotation_[i] != 0) && s.inertia[i] > 0.0 && s.rotational_stiffness[i] * half_square > s.inertia[i]) {

@@ -44,6 +44,8 @@ class TimeStep {
   /// First node whose mass grew by more than `ratio` of its first one (/STOP); no_index: none, or ratio 0.
   [[nodiscard]] Index first_beyond(double ratio, const state::State& s) const;
   [[nodiscard]] double added_mass() const { return added_mass_; }
+  [[nodiscard]] std::span<const double> added_masses() const { return added_; }  ///< #N, or empty: none so far
+  [[nodiscard]] double nodal_scale() const { return nodal_scale_; }
   void persist(state::Archive& a);
 
  private:

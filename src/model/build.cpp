@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "model/consequences.hpp"
 #include "model/reader.hpp"
 
 namespace abut::model {
@@ -27,6 +28,7 @@ Model build(const deck::DeckPair& deck, Diagnostics& diagnostics, int run) {
   }
   validate(c);
   if (c.diagnostics->error_count() == 0) check_plausibility(c);
+  diagnostics = without_consequences(diagnostics);
   return model;
 }
 

@@ -48,7 +48,7 @@ std::array<bool, 3> read_units(BlockReader& r, Units& units, std::string_view pr
 }
 
 void set_version(Context& c, Id version, const Place& place) {
-  if (version < 0 || version > 9999) {
+  if ((version != 0 && version < 41) || version > 9999) {
     c.diagnostics->error("model.bad_version", place,
                          fmt::format("{} is not a format version: 41, 44, 51, 90 ... 140, 2017 ... 2026", version));
     version = newest_version;

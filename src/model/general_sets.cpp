@@ -11,6 +11,9 @@ namespace abut::model {
 namespace {
 
 constexpr deck::Columns key_columns{1, 10};
+constexpr std::string_view key_name =
+    "clause (NODE, NODENS, PART, SUBS, SHELL, SH3N, SOLID, SET, ALL; SEG with n1 to n4 in 21-60; suffix _D removes, _O reverses, _A all "
+    "faces, _E outer faces)";
 
 enum class Action { add, remove, reversed, all_faces, external_faces };
 
@@ -134,7 +137,7 @@ void SetReader::evaluate_general_set(Item& item) {
   std::string key;
   while (r.next_card()) {
     if (r.blank({1, 100})) continue;
-    if (!r.blank(key_columns)) key = deck::to_upper(r.text(key_columns));
+    if (!r.blank(key_columns)) key = deck::to_upper(r.text(key_columns, key_name));
     if (key.empty()) {
       r.error("model.set_clause", key_columns, "KEY", "the first line of a set names a kind, such as NODE or PART");
       continue;

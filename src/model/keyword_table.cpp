@@ -20,9 +20,11 @@ struct ProbeCards {
   std::string first, others;
 };
 
-/// A Starter deck of /BEGIN and one block, whose first data card may differ from the others.
+/// A Starter deck of /BEGIN, a little model that the ids of a probe find (nodes 1 to 3, part 1), and one block, whose first data card may
+/// differ from the others.
 class Probe {
  public:
+  /// @param words  of the block's keyword line; none: the deck without it
   Probe(std::vector<std::string> words, const ProbeCards& cards, int version) {
     deck_.files = {"probe"};
     if (version < 50) {
@@ -30,6 +32,8 @@ class Probe {
     } else {
       add({"BEGIN"}, {"probe", fmt::format("{:>10}", version), "", ""});
     }
+    add_model(version < 50);
+    if (words.empty()) return;
     std::vector<std::string> all(probe_cards, cards.others);
     all[version < 50 ? 0 : 1] = cards.first;  // from 51 on a title comes before it
     add(std::move(words), all);
@@ -39,6 +43,24 @@ class Probe {
 
  private:
   std::string_view keep(std::string text) { return texts_.emplace_back(std::move(text)); }
+
+  /// @param old  fields of 8 columns, no titles
+  void add_model(bool old) {
+    const auto fields = [old](const std::vector<std::string>& texts, int width) {
+      std::string card;
+      for (const std::string& text : texts) card += fmt::format("{:>{}}", text, old ? width * 8 / 10 : width);
+      return card;
+    };
+    const auto titled = [old](std::vector<std::string> cards) {
+      if (!old) cards.insert(cards.begin(), "probe");
+      return cards;
+    };
+    add({"NODE"}, {fields({"1"}, 10) + fields({"0", "0", "0"}, 20), fields({"2"}, 10) + fields({"1", "0", "0"}, 20),
+                   fields({"3"}, 10) + fields({"0", "1", "0"}, 20)});
+    add({"MAT", "ELAST", "1"}, titled({fields({"1"}, 20), fields({"1", "0"}, 20)}));
+    add({"PROP", "SHELL", "1"}, titled({"", "", fields({"0", "0"}, 10) + fields({"1"}, 20)}));
+    add({"PART", "1"}, titled({fields({"1", "1"}, 10)}));
+  }
 
   void add(std::vector<std::string> words, const std::vector<std::string>& cards) {
     deck::Block block;
@@ -58,8 +80,9 @@ bool of_begin(const FieldUse& use) {
   return use.name == "name" || use.name == "Invers" || use.name.starts_with("input ") || use.name.starts_with("work ");
 }
 
-/// Lets the Starter's readers read one block. @returns the fields they looked at and what they said
-std::pair<std::vector<FieldUse>, Diagnostics> read_probe(const std::vector<std::string>& words, const ProbeCards& cards, int version) {
+using Reading = std::pair<std::vector<FieldUse>, Diagnostics>;
+
+Reading read_deck(const std::vector<std::string>& words, const ProbeCards& cards, int version) {
   const Probe probe(words, cards, version);
   Model model;
   std::pair<std::vector<FieldUse>, Diagnostics> found;
@@ -69,9 +92,25 @@ std::pair<std::vector<FieldUse>, Diagnostics> read_probe(const std::vector<std::
   c.diagnostics = &found.second;
   c.field_log = &found.first;
   read_control(c);
-  if (words.front() == "BEGIN") return found;
+  if (!words.empty() && words.front() == "BEGIN") return found;
   std::erase_if(found.first, of_begin);  // the probe has one of its own
   read_entities(c);
+  return found;
+}
+
+/// Lets the Starter's readers read one block. @returns the fields they looked at in it and what they said
+Reading read_probe(const std::vector<std::string>& words, const ProbeCards& cards, int version) {
+  static std::map<int, std::vector<FieldUse>> models;  // what is looked at without the block
+  auto model = models.find(version);
+  if (model == models.end()) model = models.emplace(version, read_deck({}, {}, version).first).first;
+  Reading found = read_deck(words, cards, version);
+  if (words.front() == "BEGIN") return found;
+  for (const FieldUse& use : model->second) {
+    const auto same = std::find_if(found.first.begin(), found.first.end(), [&use](const FieldUse& f) {
+      return f.card == use.card && f.name == use.name && f.columns.first == use.columns.first && f.columns.last == use.columns.last;
+    });
+    if (same != found.first.end()) found.first.erase(same);
+  }
   return found;
 }
 
@@ -98,15 +137,31 @@ std::vector<std::string> words_of(const KeywordSupport& k) {
   return words;
 }
 
+/// A keyword line with a type, "PART/EXT" being two words, and id 1.
+std::vector<std::string> line_of(std::vector<std::string> words, const std::string& type) {
+  for (std::size_t begin = 0; begin < type.size();) {
+    const std::size_t end = std::min(type.find('/', begin), type.size());
+    words.push_back(type.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  words.emplace_back("1");
+  return words;
+}
+
 /// Second words that a reader of sets may know; which it takes is asked.
 std::vector<std::string> known_types(const std::string& keyword) {
   static const std::set<std::string> sets{"/GRNOD", "/GRSHEL", "/GRSH3N", "/GRBRIC", "/GRPART", "/SURF", "/BOX", "/SET"};
   static const std::vector<std::string> set_types{
-      "NODE", "PART",     "SUBSET", "SUBMODEL", "MAT",    "PROP",    "BOX",     "BOX2",   "SURF",   "SEG",      "LINE",
-      "GENE", "GEN_INCR", "GRNOD",  "GRSHEL",   "GRSH3N", "GRBRIC",  "GRPART",  "GRQUAD", "GRTRUS", "GRBEAM",   "SHEL",
-      "SH3N", "BRIC",     "RECTA",  "CYLIN",    "SPHER",  "GENERAL", "COLLECT", "PLANE",  "ELLIPS", "MDELLIPS", "DSURF"};
-  static const std::map<std::string, std::vector<std::string>> other_types{
-      {"/SKEW", {"FIX", "MOV", "MOV2"}}, {"/UNIT", {"MASS", "LENGTH", "TIME"}}, {"/RANDOM", {"GRNOD"}}, {"/SHFRA", {"V4"}}};
+      "NODE",    "NODENS",  "PART",        "PART/EXT", "PART/ALL", "SUBSET", "SUBSET/EXT", "SUBSET/ALL", "SUBMODEL", "MAT",
+      "MAT/EXT", "MAT/ALL", "PROP",        "PROP/EXT", "PROP/ALL", "BOX",    "BOX/EXT",    "BOX/ALL",    "BOX2",     "SURF",
+      "SEG",     "LINE",    "GENE",        "GEN_INCR", "GRNOD",    "GRSHEL", "GRSH3N",     "GRBRIC",     "GRPART",   "GRBRIC/EXT",
+      "GRQUAD",  "GRTRUS",  "GRBRIC/FREE", "GRBEAM",   "SHEL",     "SH3N",   "BRIC",       "RECTA",      "CYLIN",    "SPHER",
+      "GENERAL", "COLLECT", "PLANE",       "ELLIPS",   "MDELLIPS", "DSURF"};
+  static const std::map<std::string, std::vector<std::string>> other_types{{"/ADMAS", {"0", "1", "2", "3", "4", "5", "6", "7"}},
+                                                                           {"/SKEW", {"FIX", "MOV", "MOV2"}},
+                                                                           {"/UNIT", {"MASS", "LENGTH", "TIME"}},
+                                                                           {"/RANDOM", {"GRNOD"}},
+                                                                           {"/SHFRA", {"V4"}}};
   static const std::vector<std::string> history_types{"NODE",  "PART",  "SHEL",   "SH3N",  "BRIC",   "INTER",
                                                       "RWALL", "RBODY", "SECTIO", "ACCEL", "SPRING", "GRNOD"};
   const auto other = other_types.find(keyword);
@@ -116,7 +171,8 @@ std::vector<std::string> known_types(const std::string& keyword) {
                                                                            : std::vector<std::string>{};
   std::vector<std::string> taken;
   for (const std::string& type : candidates) {
-    const Diagnostics said = read_probe({keyword.substr(1), type, "1"}, {}, 2022).second;
+    if (keyword != "/SURF" && type.find('/') != std::string::npos) continue;  // of other sets the word after the type is the id
+    const Diagnostics said = read_probe(line_of({keyword.substr(1)}, type), {}, 2022).second;
     const bool refused = std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& d) {
       return d.code == "model.left_out" ||
              (d.severity == Severity::error && (d.code == "model.unknown_type" || d.code == "model.unsupported"));
@@ -135,9 +191,8 @@ std::vector<FieldSupport> fields_of(const KeywordSupport& k) {
   for (const int version : probed_versions()) {
     std::map<Key, std::size_t> card_of;  // lists repeat their fields in every card: the first one stands for all
     for (const std::string& type : types) {
-      std::vector<std::string> line = words_of(k);
-      if (!type.empty()) line.push_back(type);
-      if (k.keyword != "/RANDOM" || !type.empty()) line.push_back("1");
+      std::vector<std::string> line = line_of(words_of(k), type);
+      if (k.keyword == "/RANDOM" && type.empty()) line.pop_back();
       for (const ProbeCards& cards : probes_of(k.keyword, version)) {
         for (const FieldUse& use : read_probe(line, cards, version).first) {
           std::size_t& first = card_of.try_emplace({use.name, use.columns.first, use.columns.last}, use.card).first->second;

@@ -140,7 +140,7 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
   law.c = r.real({1, 20}, "c");
   law.eps_rate_0 = r.real({21, 40}, "EPS_DOT_0", dim::rate);
   if (law.c < 0.0) r.error("model.rate", {1, 20}, "c", fmt::format("the rate coefficient is {:g}: it must not be negative", law.c));
-  if (law.c != 0.0 && law.eps_rate_0 <= 0.0) {
+  if (law.c > 0.0 && law.eps_rate_0 <= 0.0) {
     r.error("model.rate", {21, 40}, "EPS_DOT_0", "a positive reference strain rate is needed where c is not 0");
   }
   const Id icc = r.integer({41, 50}, "ICC");

@@ -227,7 +227,7 @@ class HistoryReader {
   }
 
   void warn_missing(BlockReader& r, ThKind kind, Id id) {
-    c_.diagnostics->warning("model.missing_reference", r.place(),
+    c_.diagnostics->warning("model.missing_output", r.place(),
                             fmt::format("there is no {} {}; its time history is left out", th_word(kind), id));
   }
 

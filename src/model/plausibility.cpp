@@ -1,5 +1,5 @@
-// What a deck may say, but rarely means: materials in other units than /BEGIN, late bodies beside their centre of gravity, nodes that a
-// rigid wall cannot stop.
+// What a deck may say, but rarely means: materials in other units than /BEGIN, bodies held beside their centre of gravity, nodes that a
+// rigid wall does not stop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,12 +42,23 @@ void speeds_of_sound(Context& c) {
   }
 }
 
-/// A body that a sensor switches on keeps its main node where it is and moves about it as about its centre of gravity.
-void centres_of_late_bodies(Context& c) {
+/// A main node that stays where it is and is held there carries the mass of its body as if it were the centre of gravity.
+void held_beside_the_centre(Context& c) {
   const Model& m = *c.model;
+  std::vector<bool> held(static_cast<std::size_t>(m.node_count()), false);
+  for (const BoundaryCondition& card : m.boundary_conditions) {
+    for (const Index n : card.nodes) held[static_cast<std::size_t>(n)] = true;
+  }
+  for (const ImposedMotion& card : m.imposed_motions) {
+    for (const Index n : card.nodes) held[static_cast<std::size_t>(n)] = true;
+  }
+  for (const RigidWall& card : m.rigid_walls) {
+    if (card.node != no_index) held[static_cast<std::size_t>(card.node)] = true;
+  }
   const std::vector<double> masses = nodal_masses(m);
   for (const RigidBody& b : m.rigid_bodies) {
-    if (b.sensor == no_index || b.main == no_index || b.nodes.empty()) continue;
+    if (b.main == no_index || b.nodes.empty() || (b.sensor == no_index && b.icog != 3)) continue;
+    if (!held[static_cast<std::size_t>(b.main)]) continue;
     double mass = 0.0, size = 0.0;
     Vec3 moment{};
     const Vec3 main = m.node_x[static_cast<std::size_t>(b.main)];
@@ -57,13 +68,13 @@ void centres_of_late_bodies(Context& c) {
       moment += masses[i] * (m.node_x[i] - main);
       size = std::max(size, norm(m.node_x[i] - main));
     }
-    mass += masses[static_cast<std::size_t>(b.main)];
+    mass += masses[static_cast<std::size_t>(b.main)] + (b.sensor == no_index ? b.mass : 0.0);
     if (mass <= 0.0 || norm(moment) <= 0.01 * size * mass) continue;
     const Vec3 centre = main + moment / mass;
     c.diagnostics->warning(
         "model.late_body", place_of(c, "RBODY", b.id),
-        fmt::format("a body that a sensor switches on keeps its main node where it is and turns about it, but the centre of "
-                    "gravity is {:.4g} away: it would start to turn and make energy; put node {} at {:.6g} {:.6g} {:.6g}",
+        fmt::format("its main node is held by a condition, an imposed motion or a wall and stays {:.4g} beside the centre of gravity: the "
+                    "body then moves as if its mass were there, which makes energy when it turns; put node {} at {:.6g} {:.6g} {:.6g}",
                     norm(moment) / mass, m.node_id[static_cast<std::size_t>(b.main)], centre.x, centre.y, centre.z));
   }
 }
@@ -73,19 +84,22 @@ void walls_and_bodies(Context& c) {
   std::vector<Index> body(static_cast<std::size_t>(m.node_count()), no_index);
   for (std::size_t b = 0; b < m.rigid_bodies.size(); ++b) {
     const RigidBody& card = m.rigid_bodies[b];
-    if (card.sensor != no_index || !card.active) continue;
+    if (card.sensor != no_index || !card.active) continue;  // Ikrem 1 is forced for a body with a sensor
     for (const Index n : card.nodes) body[static_cast<std::size_t>(n)] = static_cast<Index>(b);
   }
   for (const RigidWall& w : m.rigid_walls) {
     const auto follows = [&](Index n) { return body[static_cast<std::size_t>(n)] != no_index; };
-    const auto count = std::count_if(w.nodes.begin(), w.nodes.end(), follows);
+    const auto passes = [&](Index n) {
+      return follows(n) && !m.rigid_bodies[static_cast<std::size_t>(body[static_cast<std::size_t>(n)])].keep_in_walls;
+    };
+    const auto count = std::count_if(w.nodes.begin(), w.nodes.end(), passes);
     if (count > 0) {
-      const Index first = *std::find_if(w.nodes.begin(), w.nodes.end(), follows);
+      const Index first = *std::find_if(w.nodes.begin(), w.nodes.end(), passes);
       const RigidBody& b = m.rigid_bodies[static_cast<std::size_t>(body[static_cast<std::size_t>(first)])];
       c.diagnostics->note(
           "model.wall_and_body", place_of(c, "RWALL", w.id),
-          fmt::format("{} a rigid body (the first is node {}, of rigid body {}) and {} not stopped by this wall: of a body it "
-                      "stops the main node only; use an interface (/INTER/TYPE7) where the body's faces are to be held",
+          fmt::format("{} a rigid body (the first is node {}, of rigid body {}) and {} not stopped by this wall, because Ikrem = 0 of "
+                      "/RBODY takes secondary nodes out of walls; write 1 where the wall is to stop the body",
                       count == 1 ? "1 node follows" : fmt::format("{} nodes follow", count), m.node_id[static_cast<std::size_t>(first)],
                       b.id, count == 1 ? "is" : "are"));
     }
@@ -102,7 +116,7 @@ void walls_and_bodies(Context& c) {
 
 void check_plausibility(Context& context) {
   speeds_of_sound(context);
-  centres_of_late_bodies(context);
+  held_beside_the_centre(context);
   walls_and_bodies(context);
 }
 

@@ -231,10 +231,10 @@ class Validator {
     std::vector<Index> shared;
     std::set_intersection(nodes.begin(), nodes.end(), on_main.begin(), on_main.end(), std::back_inserter(shared));
     if (shared.empty()) return;
-    d_.warning("model.shared_node", i.place,
-               fmt::format("{} also on the main surface {}: {}; a node cannot touch its own segment, take it out of the group",
-                           shared.size() == 1 ? "1 secondary node is" : fmt::format("{} secondary nodes are", shared.size()),
-                           surface(main).id, list(ids_of(shared))));
+    d_.error("model.shared_node", i.place,
+             fmt::format("{} also on the main surface {}: {}; a node cannot touch its own segment, take it out of the group",
+                         shared.size() == 1 ? "1 secondary node is" : fmt::format("{} secondary nodes are", shared.size()),
+                         surface(main).id, list(ids_of(shared))));
   }
 
   // ---- rigid bodies, motions, loads ---------------------------------------------------------------------------------

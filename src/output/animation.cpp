@@ -176,6 +176,7 @@ void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
         sample.mass = group.element_mass(place.element);
         sample.group = &group;
         sample.element = place.element;
+        sample.state = now.state;
       }
       if (sample.output.off == 0.0) continue;
       const CellShape shape = shape_of(table.nodes[e]);

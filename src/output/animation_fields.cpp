@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
+
+#include "elements/strain_rate.hpp"
 
 namespace abut::output {
 namespace {
@@ -61,6 +64,29 @@ const NodeField contact_state{"contact_state", 1, [](const Snapshot& s, std::siz
                                 *out = n < s.contact_state.size() ? static_cast<double>(s.contact_state[n].state) : 0.0;
                               }};
 
+void write_or_zero(std::span<const Vec3> values, std::size_t n, double* out) { put(n < values.size() ? values[n] : Vec3{}, out); }
+
+const NodeField option_force{"option_force", 3,
+                             [](const Snapshot& s, std::size_t n, double* out) { write_or_zero(s.option_force, n, out); }};
+const NodeField option_moment{"option_moment", 3,
+                              [](const Snapshot& s, std::size_t n, double* out) { write_or_zero(s.option_moment, n, out); }};
+
+/// Square of 2 m / K; infinite where there is no stiffness: sums start from 1e-20 (numerics.md 1.2 step 2).
+double square_of_step(double mass, double stiffness) {
+  return mass > 0.0 && stiffness > 1e-20 ? 2.0 * mass / stiffness : std::numeric_limits<double>::infinity();
+}
+
+const NodeField nodal_step{"nodal_step", 1, [](const Snapshot& s, std::size_t n, double* out) {
+                             const state::State& q = *s.state;
+                             const double square = std::min(square_of_step(q.mass[n], q.stiffness[n]),
+                                                            square_of_step(q.inertia[n], q.rotational_stiffness[n]));
+                             *out = std::isfinite(square) ? s.nodal_scale * std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
+                           }};
+const NodeField added_mass_ratio{"added_mass_ratio", 1, [](const Snapshot& s, std::size_t n, double* out) {
+                                   const double added = n < s.added_mass.size() ? s.added_mass[n] : 0.0;
+                                   *out = added > 0.0 ? added / (s.state->mass[n] - added) : 0.0;
+                                 }};
+
 const CellField plastic_strain{"plastic_strain", 1, [](const ElementSample& e, double* out) { *out = e.output.plastic_max; }};
 const CellField von_mises{"von_mises", 1, [](const ElementSample& e, double* out) { *out = e.output.von_mises; }};
 const CellField stress{"stress", 6,
@@ -71,6 +97,11 @@ const CellField pressure{"pressure", 1, [](const ElementSample& e, double* out) 
 const CellField density{"density", 1, [](const ElementSample& e, double* out) { *out = e.output.density; }};
 const CellField thickness{"thickness", 1, [](const ElementSample& e, double* out) { *out = e.output.thickness; }};
 const CellField hourglass{"hourglass_energy", 1, [](const ElementSample& e, double* out) { *out = e.output.hourglass_energy; }};
+const CellField strain_rate{"strain_rate", 1, [](const ElementSample& e, double* out) {
+                              *out = e.group == nullptr || e.state == nullptr
+                                         ? 0.0
+                                         : elements::equivalent_strain_rate(*e.group, e.element, e.state->x, e.state->v, e.state->w);
+                            }};
 
 /// Selections that ask for something which every state has (OFF: only active elements are in it), or for nothing that is a field.
 bool is_always_there(std::string_view s) {
@@ -114,18 +145,16 @@ std::string normalised(std::string s) {
 }
 
 const std::vector<std::pair<std::string_view, NodeField>>& selectable_node_fields() {
-  static const std::vector<std::pair<std::string_view, NodeField>> table{{"VECT/ACC", acceleration},
-                                                                         {"VECT/VROT", angular_velocity},
-                                                                         {"VECT/FINT", internal_force},
-                                                                         {"VECT/FEXT", external_force},
-                                                                         {"MASS", mass}};
+  static const std::vector<std::pair<std::string_view, NodeField>> table{
+      {"VECT/ACC", acceleration},  {"VECT/VROT", angular_velocity}, {"VECT/FINT", internal_force},   {"VECT/FEXT", external_force},
+      {"VECT/FOPT", option_force}, {"NODA/DT", nodal_step},         {"NODA/DMAS", added_mass_ratio}, {"MASS", mass}};
   return table;
 }
 
 const std::vector<std::pair<std::string_view, CellField>>& selectable_cell_fields() {
-  static const std::vector<std::pair<std::string_view, CellField>> table{{"ELEM/ENER", energy},    {"ELEM/P", pressure},
-                                                                         {"ELEM/DENS", density},   {"ELEM/HOURG", hourglass},
-                                                                         {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}};
+  static const std::vector<std::pair<std::string_view, CellField>> table{
+      {"ELEM/ENER", energy},    {"ELEM/P", pressure},      {"ELEM/DENS", density},    {"ELEM/HOURG", hourglass},
+      {"ELEM/THIC", thickness}, {"ELEM/THICK", thickness}, {"ELEM/EPSD", strain_rate}};
   return table;
 }
 
@@ -147,6 +176,7 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
     const auto same = [&s](const auto& entry) { return entry.first == s; };
     if (const auto n = std::find_if(node_fields.begin(), node_fields.end(), same); n != node_fields.end()) {
       add_once(fields.nodes, n->second);
+      if (n->second.name == option_force.name) add_once(fields.nodes, option_moment);
     } else if (const auto c = std::find_if(cell_fields.begin(), cell_fields.end(), same); c != cell_fields.end()) {
       add_once(fields.cells, c->second);
     } else if (const std::vector<CellField> layers = layer_fields(s); !layers.empty()) {

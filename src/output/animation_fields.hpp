@@ -22,6 +22,7 @@ struct ElementSample {
   double mass = 0.0;
   const elements::Group* group = nullptr;
   Index element = no_index;  ///< in the group
+  const state::State* state = nullptr;
 };
 
 struct CellField {
@@ -42,6 +43,9 @@ struct AnimationFields {
 /// plastic_strain, von_mises, stress (XX YY ZZ XY YZ XZ, mean over the element, global axes). TENS/STRESS/UPPER, LOWER, BEND and n (an
 /// integration point from 1 at the bottom) add stress_upper, stress_lower, stress_bending and stress_point_n
 /// (elements::Group::layer_stress); ALL adds upper and lower.
+/// VECT/FOPT adds option_force and option_moment (cycle::Snapshot), NODA/DT nodal_step (of elements and contact at the node, with the
+/// run's factor; NaN for nodes that limit nothing), NODA/DMAS added_mass_ratio (mass added by scaling over the node's mass without it),
+/// ELEM/EPSD strain_rate (elements/strain_rate.hpp).
 /// @param selections  model::Controls::animation_fields, upper case
 [[nodiscard]] AnimationFields select_animation_fields(const std::vector<std::string>& selections);
 

@@ -119,7 +119,7 @@ std::vector<double> Run::element_field(ElementKind kind, std::string_view name) 
     const output::ElementPlace place = lookup.find(kind, static_cast<Index>(e));
     if (!place.exists()) continue;
     const elements::Group& group = *now.groups[static_cast<std::size_t>(place.group)];
-    const output::ElementSample sample{group.output(place.element), group.element_mass(place.element), &group, place.element};
+    const output::ElementSample sample{group.output(place.element), group.element_mass(place.element), &group, place.element, now.state};
     if (sample.output.off != 0.0) field.write(sample, values.data() + e * components);
   }
   return values;

@@ -85,4 +85,19 @@ inline model::Model mixed(const Variant& variant = {}) {
   return s.model;
 }
 
+/// A block that hits another one with a corner: the bricks there hourglass, in directions that are none of the axes.
+inline model::Model corner(const Variant& variant = {}) {
+  using impact::density;
+  using impact::young;
+  Scene s("corner");
+  const auto part = s.part(s.solid_property(), s.elastic(density, young, 0.3));
+  const auto base = s.block(part, {0, 0, 0}, {0.04, 0.04, 0.02}, {4, 4, 2});
+  const auto block = s.block(part, {0.0223, 0.0231, 0.02001 + variant.lift}, {0.03, 0.03, 0.02}, {3, 3, 2});
+  if (variant.supported) s.fix(base.plane(2, false), {true, true, true});
+  s.velocity(block.nodes, {8.0, 5.0, -30.0});
+  s.contact(s.surface(base, 2, true), s.surface(block, 2, false), 0.2, 0.2);
+  s.end(6e-5, 0.0, variant.step_scale);
+  return s.model;
+}
+
 }  // namespace abut::scenes

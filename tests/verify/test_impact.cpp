@@ -182,9 +182,9 @@ TEST(BarOnAWall, MeetsTheIdealAnswerThroughARigidWall) {
 //   Flight 2 v0/g = 2 = three periods of ringing: it lands in the state in which it left.
 //   Second impact, the mirror image of the first in time: A = v0 + g L/c at the bottom, force Z (v0 + g T - g t); after T the bar
 //   is free of stress with v = v0. Period 1 + 2/3 + 2 + 2/3 + 1 = 16/3; the third impact is the first one again.
-// No bound on ERR here: at a third of shortening Ismstr 1 keeps the geometry but not the volume (numerics.md 4.3.4), which is
-// no potential; the printed value says what that costs. It falls with the step (0.9 of the limit 0.4 to 1, where ringing can grow until the
-// run stops; 0.6: 0.21; 0.3: 0.10; contact's own CX is below 1e-3), hence 0.6.
+// At a third of shortening, with bricks of small strain: their energy is the work of their forces, on the frozen volume. (On the mean
+// volume of the step, the rule of the reference program, it is wrong by the step times the rate of volume: 0.2 of the balance at 0.6 of the
+// step.) ERR at 0.8, 0.6, 0.3 of the step: 5.4e-3, 2.3e-3, 3e-5. At 0.9 the ringing of 200 elements still grows in the second flight.
 struct Bounces {
   std::vector<double> begin, end;
   double height = 0.0;  // of the bottom between the second and third impact
@@ -195,7 +195,7 @@ Bounces bounce(int cells, double s, double end = 7.5) {
   Bar b{10.0, 1.0, 900.0, 1.0, 0.0, cells, s};
   Model m(b, 5.0, false);
   m.scene.gravity(2, -10.0);
-  m.scene.end(end, 0.0, 0.6);
+  m.scene.end(end, 0.0, 0.8);
   Recorder recorder({m.bar.at(0, 0, 0)});
   const auto report = abut::cycle::run(m.scene.model, {}, recorder);
   EXPECT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished) << report.outcome.message;
@@ -225,6 +225,7 @@ TEST(BouncingBar, KeepsItsPeriodOverThreeBounces) {
   EXPECT_NEAR(r.begin[2] - r.begin[0], 16.0 / 3.0, 0.02 * 16.0 / 3.0);
   EXPECT_NEAR(r.begin[0], 1.0, 0.002);
   EXPECT_NEAR(r.height, 5.0, 0.02 * 5.0) << "the bar comes back to where it was dropped";
+  EXPECT_LT(r.worst_error, 0.01);
 }
 
 TEST(BouncingBar, ApproachesTheExactPeriodAsTheMeshRefines) {

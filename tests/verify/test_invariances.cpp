@@ -25,6 +25,7 @@ struct Case {
   std::function<model::Model()> build;
 };
 
+using abut::scenes::corner;
 using abut::scenes::mixed;
 using abut::scenes::plates;
 using abut::scenes::slide;
@@ -208,7 +209,7 @@ TEST_P(Invariance, NothingButThePhysicsMatters) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Invariance,
                          testing::Values(Case{"plates", [] { return plates(); }}, Case{"slide", [] { return slide(); }},
-                                         Case{"mixed", [] { return mixed(); }}),
+                                         Case{"mixed", [] { return mixed(); }}, Case{"corner", [] { return corner(); }}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

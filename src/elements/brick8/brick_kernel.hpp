@@ -5,7 +5,7 @@
 //   hence we do not use the exact trilinear one), P_I = xi_I a + eta_I b + zeta_I c with (a, b, c) = (r_eta x r_zeta, ...)/det.
 //   L = v_xi a^T + v_eta b^T + v_zeta c^T with the same rows of v. f_I = V (sigma - q 1) P_I + sum_alpha gamma_I F_alpha.
 //   Gamma: products xi eta, eta zeta, zeta xi, -xi eta zeta. gamma = Gamma - P.X, X = sum_J Gamma_J x_J, for modes 1-3 of Isolid 1 (the
-//   mode 4 as it is); Isolid 2: gamma = Gamma. Rates qdot = gamma . v = Gamma . v - L X. F = qdot (c_l + c_q |qdot|) per component, c_l =
+//   mode 4 as it is); Isolid 2: gamma = Gamma. Rates qdot = gamma . v = Gamma . v - L X. F = qdot (c_l + c_q |qdot|), c_l =
 //   h/4 rho V^(2/3) c, c_q = 25 h c_l / c. Small strain (Ismstr 1): rows, X and face areas are those of cycle 0, in the frame of cycle 0.
 //   Iframe 2 lets the frame rotate with the element; with Iframe 1 they stay attached to the global axes, so that it is meant for small
 //   rotations only.
@@ -69,9 +69,16 @@ ABUT_INLINE Matrix<R> brick_frame(const Vec<R>& r, const Vec<R>& s, const Vec<R>
   return {u, cross(e3, u), e3};
 }
 
-/// F = qdot (c_l + c_q |qdot|), component by component.
+/// Size of a mode's rate.
 template <class R>
-ABUT_INLINE Vec<R> hourglass_force(const Vec<R>& rate, R cl, R cq) {
+ABUT_INLINE R size_of(const Vec<R>& a) {
+  return simd::sqrt(dot(a, a));
+}
+
+/// F = qdot (c_l + c_q |qdot|), or component by component.
+template <class R>
+ABUT_INLINE Vec<R> hourglass_force(const Vec<R>& rate, R cl, R cq, bool objective) {
+  if (objective) return (cl + cq * size_of(rate)) * rate;
   return {rate.x * (cl + cq * simd::abs(rate.x)), rate.y * (cl + cq * simd::abs(rate.y)), rate.z * (cl + cq * simd::abs(rate.z))};
 }
 
@@ -173,8 +180,9 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
   }
   const R cl = simd::select(sound, R(0.25 * c.hourglass * c.sound) * point.density * point.length * point.length, zero);
   const R cq = cl * R(25.0 * c.hourglass / c.sound);
-  const Vec<R> f1 = hourglass_force(w.g1, cl, cq), f2 = hourglass_force(w.g2, cl, cq);
-  const Vec<R> f3 = hourglass_force(w.g3, cl, cq), f4 = hourglass_force(w.g4, cl, cq);
+  const bool objective = c.objective_hourglass;
+  const Vec<R> f1 = hourglass_force(w.g1, cl, cq, objective), f2 = hourglass_force(w.g2, cl, cq, objective);
+  const Vec<R> f3 = hourglass_force(w.g3, cl, cq, objective), f4 = hourglass_force(w.g4, cl, cq, objective);
   R hourglass_power = dot(f1, w.g1) + dot(f2, w.g2) + dot(f3, w.g3) + dot(f4, w.g4);
   if (c.trapezoidal_hourglass) {
     const int f = c.force_field;
@@ -206,8 +214,9 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     const R g = largest_gradient(trace, squared);
     const R per_mass = eight * state.get(f_inverse_mass);
     StabilityTerms<R> t = stability_terms(c, point, per_mass * volume, trace, g);
-    const R fastest =
-        simd::max(simd::max(largest_component(w.g1), largest_component(w.g2)), simd::max(largest_component(w.g3), largest_component(w.g4)));
+    const auto rate = [objective](const Vec<R>& g) { return objective ? dot(g, g) : largest_component(g); };
+    R fastest = simd::max(simd::max(rate(w.g1), rate(w.g2)), simd::max(rate(w.g3), rate(w.g4)));
+    if (objective) fastest = simd::sqrt(fastest);
     const R viscosity = per_mass * (cl + R(2.0) * cq * fastest);
     t.hourglass = eight * viscosity;
     if (c.orthogonal_hourglass) t.mixed = viscosity * (dot(m.g1, m.g1) + dot(m.g2, m.g2) + dot(m.g3, m.g3)) * g;

@@ -98,6 +98,8 @@ SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel 
   config_.hourglass = solid->h;
   config_.small_strain = solid->ismstr == 1;
   config_.reference_step = in.profile.element_step == Profile::ElementStep::reference;
+  config_.small_strain_work = in.profile.small_strain_energy == Profile::SmallStrainEnergy::work;
+  config_.objective_hourglass = in.profile.hourglass_viscosity == Profile::HourglassViscosity::objective;
   config_.trapezoidal_hourglass = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;
   config_.literal_spin = in.profile.tetra_spin == Profile::TetraSpin::reference;
   reference_part_mass_ = config_.small_strain && config_.reference_step;

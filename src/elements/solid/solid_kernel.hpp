@@ -129,7 +129,7 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
   R delta_volume, mean_volume;
   if (c.small_strain) {
     delta_volume = old_volume * rate * R(dt);
-    mean_volume = old_volume - half * delta_volume;
+    mean_volume = c.small_strain_work ? old_volume : old_volume - half * delta_volume;
     out.density = state.get(f_density) - R(c.rho_0 * dt) * rate;
     state.put(f_density, out.density);
   } else {

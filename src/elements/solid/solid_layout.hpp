@@ -45,7 +45,9 @@ struct SolidConfig {
   bool small_strain = false;         ///< Ismstr 1
   bool reference_step = false;
   bool trapezoidal_hourglass = true;
-  bool literal_spin = false;  ///< TETRA4: spin with the reference's second-order terms
+  bool small_strain_work = true;    ///< internal energy on the frozen volume, as the forces are
+  bool objective_hourglass = true;  ///< quadratic viscosity on the size of a mode's rate, not on its components
+  bool literal_spin = false;        ///< TETRA4: spin with the reference's second-order terms
   double step_scale = 0.9, step_minimum = 0.0;
   bool remove_small_step = false;
   bool step_wanted = true;                                                                 ///< GroupInput

@@ -38,6 +38,45 @@ TEST(KeywordTable, FieldsThatOnlyAFrictionLawAsksForAreFound) {
   EXPECT_EQ(field(find(all, "/INTER/TYPE7"), "C6", 1).use.columns.last, 20);
 }
 
+// Fields that are read only where the ids before them are there, and types of more than one word.
+TEST(KeywordTable, FieldsBehindIdsAndTypesOfTwoWordsAreFound) {
+  const std::vector<KeywordSupport> all = starter_keywords();
+  EXPECT_EQ(field(find(all, "/SHELL"), "Thick", 81).use.columns.last, 100);
+  EXPECT_EQ(field(find(all, "/SH3N"), "Thick", 81).use.columns.last, 100);
+  const auto has = [&](const char* keyword, const char* type) {
+    const std::vector<std::string>& types = find(all, keyword).types;
+    return std::count(types.begin(), types.end(), type) == 1;
+  };
+  EXPECT_TRUE(has("/SURF", "GRBRIC/EXT"));
+  EXPECT_TRUE(has("/SURF", "PART/EXT"));
+  EXPECT_FALSE(has("/SURF", "GRBRIC"));
+  EXPECT_TRUE(has("/GRNOD", "NODENS"));
+  EXPECT_EQ(find(all, "/ADMAS").types, (std::vector<std::string>{"0", "1", "2", "3", "5", "6"}));
+  EXPECT_EQ(field(find(all, "/ADMAS"), "part_ID", 21).use.card, 1U);
+  EXPECT_EQ(find(all, "/SET").fields.front().use.columns.last, 10);
+}
+
+// Every Starter keyword that deck-format.md H.1 marks "must" is read, with its type where it is a set.
+TEST(KeywordTable, KeywordsThatADeckMayNotDoWithoutAreRead) {
+  const std::vector<KeywordSupport> all = starter_keywords();
+  for (const char* keyword :
+       {"/BEGIN",          "/UNIT",      "/TITLE",       "/ANALY",       "/DEF_SHELL",   "/DEF_SOLID",   "/SUBSET",     "/NODE",
+        "/PART",           "/SHELL",     "/SH3N",        "/BRICK",       "/TETRA4",      "/PROP/SHELL",  "/PROP/SOLID", "/PROP/VOID",
+        "/MAT/PLAS_JOHNS", "/MAT/ELAST", "/MAT/VOID",    "/FUNCT",       "/BCS",         "/INIVEL/TRA",  "/IMPVEL",     "/IMPDISP",
+        "/CLOAD",          "/RBODY",     "/RWALL/PLANE", "/INTER/TYPE3", "/INTER/TYPE5", "/INTER/TYPE7", "/TH"}) {
+    EXPECT_EQ(find(all, keyword).treatment, Treatment::taken) << keyword;
+  }
+  const std::vector<std::pair<const char*, std::vector<const char*>>> sets{
+      {"/GRNOD", {"NODE", "GRNOD", "PART", "SURF", "GENE", "SUBSET", "GRSHEL"}},
+      {"/GRSHEL", {"SHEL"}},
+      {"/SURF", {"PART", "PART/EXT", "PART/ALL", "SEG", "GRSHEL", "GRSH3N", "SURF", "GRBRIC/EXT"}},
+      {"/TH", {"NODE", "PART", "SHEL", "SH3N", "BRIC", "INTER", "RWALL", "RBODY"}}};
+  for (const auto& [keyword, types] : sets) {
+    const std::vector<std::string>& known = find(all, keyword).types;
+    for (const char* type : types) EXPECT_EQ(std::count(known.begin(), known.end(), type), 1) << keyword << "/" << type;
+  }
+}
+
 TEST(KeywordTable, EveryKeywordThatIsReadNamesItsFields) {
   for (const KeywordSupport& k : starter_keywords()) {
     if (k.treatment != Treatment::taken || k.keyword == "/SHFRA") continue;
@@ -62,7 +101,7 @@ TEST(KeywordTable, KeywordsWithTextsAndTypesAreProbedInTheirOwnForms) {
 
 TEST(KeywordTable, ListsStandOnce) {
   const std::vector<KeywordSupport> all = starter_keywords();
-  EXPECT_EQ(find(all, "/SHELL").fields.size(), 5U);
+  EXPECT_EQ(find(all, "/SHELL").fields.size(), 6U);
 }
 
 TEST(KeywordTable, WhatIsNotReadSaysWhy) {

@@ -35,34 +35,43 @@ TEST(Plausibility, SpeedOfSoundOfAMaterialInOtherUnits) {
 }
 
 TEST(Plausibility, NodesOfARigidBodyPassAWall) {
-  const std::string body = "/GRNOD/NODE/1\nall\n" + testing::ints({1, 2, 3, 4}) + "/RBODY/1\nbody\n" +
-                           testing::ints({5, 0, 0, 0}).substr(0, 40) + "                   0" + testing::ints({1, 0, 0, 0}) + "\n\n\n";
+  const auto body_with = [](int ikrem) {
+    return "/GRNOD/NODE/1\nall\n" + testing::ints({1, 2, 3, 4}) + "/RBODY/1\nbody\n" + testing::ints({5, 0, 0, 0}).substr(0, 40) +
+           "                   0" + testing::ints({1, ikrem, 0, 0}) + "\n\n\n";
+  };
+  const std::string body = body_with(0);
   const auto wall = [](const std::string& node) {
     return "/RWALL/PLANE/7\nwall\n" + testing::field(node, 10) + testing::ints({0, 1, 0}) + testing::reals({"0", "0", "0", "0"}) +
            (node == "0" ? testing::reals({"0", "0", "-1"}) : testing::reals({"2", "0", "0", "3"})) + testing::reals({"0", "0", "1"});
   };
   EXPECT_TRUE(build_text(plate(si, "2.1e11", body + wall("0")))
                   .has("note: /RWALL/PLANE/7: 4 nodes follow a rigid body (the first is node 1, of rigid body 1) and are not stopped by "
-                       "this wall: of a body "
-                       "it stops the main node only; use an interface (/INTER/TYPE7) where the body's faces are to be held"));
+                       "this wall, because Ikrem = 0 of /RBODY takes secondary nodes out of walls; write 1 where the wall is to stop the "
+                       "body"));
+  EXPECT_TRUE(build_text(plate(si, "2.1e11", body_with(1) + wall("0"))).messages().empty());
   EXPECT_TRUE(build_text(plate(si, "2.1e11", body + wall("2")))
                   .has("warning: /RWALL/PLANE/7: the wall's initial velocity is not used: its node 2 follows a rigid body, give the "
                        "velocity to the body's "
                        "main node (/INIVEL)"));
 }
 
-TEST(Plausibility, ABodyThatASensorSwitchesOnBesideItsCentre) {
-  const auto deck = [](const char* node) {
+TEST(Plausibility, ABodyHeldBesideItsCentre) {
+  const auto deck = [](const char* node, const std::string& held) {
     const std::string text = plate(si, "2.1e11",
                                    "/SENSOR/TIME/2\nlate\n" + testing::reals({"0.001"}) + "/GRNOD/NODE/1\nall\n" +
                                        testing::ints({1, 2, 3, 4}) + "/RBODY/1\nbody\n" + testing::ints({5, 2, 0, 0}).substr(0, 40) +
-                                       "                   0" + testing::ints({1, 0, 0, 0}) + "\n\n\n");
+                                       "                   0" + testing::ints({1, 0, 0, 0}) + "\n\n\n" + held);
     return with_line(text, "/NODE", 5, testing::ints({5}).substr(0, 10) + node);
   };
-  EXPECT_TRUE(build_text(deck("                 0.5                   0                   0"))
-                  .has("warning: /RBODY/1: a body that a sensor switches on keeps its main node where it is and turns about it, but the "
-                       "centre of gravity is 0.5 away: it would start to turn and make energy; put node 5 at 0.5 0.5 0"));
-  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0")).has("centre of gravity"));
+  const std::string held = "/GRNOD/NODE/2\nmain\n" + testing::ints({5}) + "/BCS/1\nslide\n   001 000         0         2\n";
+  const char* beside = "                 0.5                   0                   0";
+  EXPECT_TRUE(
+      build_text(deck(beside, held))
+          .has("warning: /RBODY/1: its main node is held by a condition, an imposed motion or a wall and stays 0.5 beside the centre "
+               "of gravity: the body then moves as if its mass were there, which makes energy when it turns; put node 5 at 0.5 0.5 "
+               "0"));
+  EXPECT_FALSE(build_text(deck(beside, "")).has("centre of gravity"));
+  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0", held)).has("centre of gravity"));
 }
 
 TEST(Plausibility, TabsAreNamedWhereAFieldCannotBeRead) {

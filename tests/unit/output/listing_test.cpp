@@ -56,7 +56,7 @@ TEST_F(ListingTest, TheHeaderSaysWhatRunsAndWhatIsLeftOut) {
   findings.warning("deck.x", {.file = "scene_0000.rad", .line = 7, .keyword = "/PART/1", .field = "", .first_column = 0, .last_column = 0},
                    "something odd");
   info_.findings = findings.all();
-  scene_.model.controls.animation_fields = {"VECT/FOPT"};
+  scene_.model.controls.animation_fields = {"NODA/TEMP"};
   model::ThRequest r;
   r.kind = model::ThKind::part;
   r.id = 11;
@@ -71,7 +71,7 @@ TEST_F(ListingTest, TheHeaderSaysWhatRunsAndWhatIsLeftOut) {
   EXPECT_TRUE(has(text, "profile standard, interface law constant, 2 threads, avx2, gcc 12"));
   EXPECT_TRUE(has(text, "  scene_0000.rad:7: warning: /PART/1: something odd\n"));
   EXPECT_TRUE(has(text, "left out of the time history: PART HEAT\n"));
-  EXPECT_TRUE(has(text, "left out of the animation: VECT/FOPT\n"));
+  EXPECT_TRUE(has(text, "left out of the animation: NODA/TEMP\n"));
 }
 
 TEST_F(ListingTest, TheSummaryCountsAndWeighsTheModel) {
