@@ -210,9 +210,9 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
   // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
   // comes from in front deeper than its motion along the normal.
-  const bool over_fold = closest() && rules.switch_correction &&
+  const bool over_fold = closest() && rules.switch_correction && grown == 0.0 &&
                          (fresh ? moved_in <= penetration && before.in_front != 0 : dot(before.normal, touch.normal) < turns);
-  bool settled = before.light == NodeState::settled;
+  bool settled = before.light == NodeState::settled && motion.rate > 0.0;  // until it turns round
   const bool light = lightness > light_pair || before.light != 0 || over_fold;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
