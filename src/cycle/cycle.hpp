@@ -18,6 +18,7 @@
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
 #include "cycle/contact_area.hpp"
+#include "cycle/contact_facing.hpp"
 #include "cycle/contact_mobility.hpp"
 #include "cycle/ledger.hpp"
 #include "cycle/run.hpp"
@@ -113,6 +114,7 @@ class Cycle {
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
   ContactMobility contact_mobility_;
   ContactArea contact_facets_;
+  ContactFacing contact_facing_;
   std::vector<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;
   bool releases_ = false;       // some interface asks for IBC
@@ -126,6 +128,7 @@ class Cycle {
   state::Balance balance_;
   StepController controller_;
   double next_history_ = 0.0, next_animation_ = 0.0;
+  bool history_written_ = false;  ///< in the cycle before
   bool history_due_ = false, animation_due_ = false, listing_due_ = false;
   bool begun_ = false;
   bool eroded_ = false;

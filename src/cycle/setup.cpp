@@ -46,6 +46,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   // The reference program's contact knows plain masses only.
   if (!options.profile.reference_contact) contact_mobility_ = ContactMobility(model, interfaces_, boundary_);
   contact_facets_ = ContactArea(model, interfaces_);
+  if (options.interfaces) contact_facing_ = ContactFacing(model);
 
   std::vector<std::uint8_t> free_translation(n, 1);
   std::vector<std::uint8_t> free_rotation(n, 1);
