@@ -46,8 +46,8 @@ struct InterfaceResult {
   /// Share of the first and second surface near the other one that faces it, by area, when it was last looked at (docs/guide/outputs.md).
   /// NaN: TYPE7, a set of nodes, or nothing decided yet.
   std::array<double, 2> facing{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-  std::span<const Index> crossed;                 ///< nodes that would have jumped through in the last step; valid until the next cycle
-  std::span<const Index> lost;                    ///< nodes that went over a free border in the last step; valid until the next cycle
+  std::span<const Index> crossed;  ///< nodes that would have jumped through in the last step; valid until the next cycle
+  std::span<const Index> lost;     ///< nodes that went over a free border in the last step; valid until the next cycle
 };
 
 /// Why and how a run ended.

@@ -15,8 +15,9 @@
 
 namespace abut::cycle {
 
-/// Looks at the surfaces of TYPE3 and TYPE5 again when a node of them has moved by a quarter of a facet since, or nothing is decided yet, at least
-/// `cycles_between` cycles later: a look costs about as much as some cycles. What it says depends on positions and cycle numbers only.
+/// Looks at the surfaces of TYPE3 and TYPE5 again when a node of them has moved by a quarter of a facet since, or nothing is decided yet,
+/// at least `cycles_between` cycles later: a look costs about as much as some cycles. What it says depends on positions and cycle numbers
+/// only.
 class ContactFacing {
  public:
   static constexpr std::int64_t cycles_between = 50;

@@ -116,6 +116,7 @@ void Cycle::internal_forces(StepLimits& limits) {
 
 void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
+  contact_thickness_.update(state_.times.cycle, groups_, interfaces_);
   record_contacts();
   const state::StepTimes& t = state_.times;
   contact_mobility_.update(state_, boundary_, imposed_, bodies_, contact_stiffness_);

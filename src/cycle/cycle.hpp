@@ -20,6 +20,7 @@
 #include "cycle/contact_area.hpp"
 #include "cycle/contact_facing.hpp"
 #include "cycle/contact_mobility.hpp"
+#include "cycle/contact_thickness.hpp"
 #include "cycle/ledger.hpp"
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
@@ -115,6 +116,7 @@ class Cycle {
   ContactMobility contact_mobility_;
   ContactArea contact_facets_;
   ContactFacing contact_facing_;
+  ContactThickness contact_thickness_;
   std::vector<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;
   bool releases_ = false;       // some interface asks for IBC

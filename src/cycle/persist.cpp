@@ -101,6 +101,7 @@ void Cycle::persist(state::Archive& a) {
     });
     a(history_due_);
     contact_facing_.persist(a);
+    contact_thickness_.persist(a, interfaces_);
     a.each(interface_results_, [&a](InterfaceResult& r) { persist_result(a, r); });
     for (std::vector<Vec3>* edited : {&edited_v_, &edited_w_}) {
       a.growing(*edited);

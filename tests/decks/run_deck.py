@@ -9,7 +9,8 @@ MODE
   contact     the same, and what the interfaces make or lose stays within its limits: for decks of the project's own
 
 Limits, as fractions of the largest energy term so far: |GLOBAL/LEDGER| <= 0.002 always; |GLOBAL/ERR| <= 0.01
-while no interface is in contact and <= 0.02 while one is; `contact`: |GLOBAL/CX| <= 0.002 and <= 0.01.
+while no interface is in contact and <= 0.02 while one is; `contact`: |GLOBAL/CX| <= 0.01, and <= 0.002
+behind the last row in which one is in contact.
 
 The decks are those of examples/decks and of the folder ABUT_DECKS (default ../shared/decks beside the source tree).
 Exit status 0 passed, 1 failed, 77 the deck is not there (CTest: skipped). Standard library only.
@@ -85,8 +86,9 @@ def energy(history, with_made=False):
     ]
     if with_made:
         made = made_share(history)
-        cases += [("CX outside contact", made, [row for row in rows if not contact[row]], MADE_LIMIT),
-                  ("CX during contact", made, [row for row in rows if contact[row]], MADE_LIMIT_IN_CONTACT)]
+        parted = max((row for row in rows if contact[row]), default=-1) + 1
+        cases += [("CX up to separation", made, list(rows[:parted]), MADE_LIMIT_IN_CONTACT),
+                  ("CX after separation", made, list(rows[parted:]), MADE_LIMIT)]
     for what, values, chosen, limit in cases:
         value, row = worst(values, chosen)
         yield what, value, (history.time[row] if row is not None else math.nan), limit, value <= limit

@@ -234,7 +234,7 @@ def test_a_gradual_start_pushes_an_overlap_apart_over_its_time():
         run.advance_to_end()
         return run
 
-    at_once, gradual = overlap(), overlap(gradual_starts={1: 0.015})
+    at_once, gradual = overlap(), overlap(interfaces={1: "start=0.015"})
     assert at_once.interfaces[0].sw == 0.0 and gradual.interfaces[0].sw > 0.0
     assert gradual.velocities[8:, 2].mean() < 0.7 * at_once.velocities[8:, 2].mean()
 
@@ -351,7 +351,9 @@ def test_recorded_contact_is_replayed(tmp_path):
 @pytest.mark.parametrize("arguments, words", [
     (dict(record_contact={1: None}), "record_contact needs an output folder"),
     (dict(record_contact={9: None}, output=True), "9"),
-    (dict(gradual_starts={9: 1.0}), "9"),
+    (dict(interfaces={9: "start=1"}), "9"),
+    (dict(interfaces={1: "law=soft"}), "law is 'soft', expected one of stiffening, constant"),
+    (dict(interfaces={"some": "law=constant"}), "neither an interface id nor 'all'"),
 ])
 def test_interfaces_that_are_not_there(tmp_path, arguments, words):
     if "output" in arguments:
@@ -360,12 +362,12 @@ def test_interfaces_that_are_not_there(tmp_path, arguments, words):
         abut.Run(two_blocks().build(), **arguments)
 
 
-def test_the_inspection_knows_of_gradual_starts():
+def test_the_inspection_knows_of_choices():
     """The first step is that of the choices; an interface that is not there is refused as by a run."""
     model = two_blocks().build()
-    assert model.inspect(gradual_starts={1: 0.01}, with_step=True).first_step > 0
+    assert model.inspect(interfaces={1: "start=0.01"}, with_step=True).first_step > 0
     with pytest.raises((ValueError, RuntimeError), match="9"):
-        model.inspect(gradual_starts={9: 0.01}, with_step=True)
+        model.inspect(interfaces={9: "start=0.01"}, with_step=True)
 
 
 def test_nothing_leaks():

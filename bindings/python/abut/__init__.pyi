@@ -185,8 +185,7 @@ class Model:
     def surfaces(self) -> list[ModelSurface]: ...
     @property
     def interfaces(self) -> list[ModelInterface]: ...
-    def inspect(self, *, rules: Rules = "standard", interface_law: Law | None = None,
-                gradual_starts: Mapping[int, float] = {}, with_step: bool = False) -> Inspection: ...
+    def inspect(self, *, rules: Rules = "standard", interfaces: Mapping[int | str, str] = {}, with_step: bool = False) -> Inspection: ...
 
 class Balance:
     @property
@@ -300,13 +299,12 @@ class Edit:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None: ...
 
 class Run:
-    def __init__(self, model: Model, *, threads: int = 0, rules: Rules = "standard", interface_law: Law | None = None,
-                 gradual_starts: Mapping[int, float] = {}, output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0, hash_every: int = 0,
+    def __init__(self, model: Model, *, threads: int = 0, rules: Rules = "standard", interfaces: Mapping[int | str, str] = {}, output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0, hash_every: int = 0,
                  record_history: bool = True, progress: bool = False, allow_findings: bool = False,
                  record_contact: Mapping[int, tuple[float, float] | None] = {}) -> None: ...
     @staticmethod
     def load(model: Model, checkpoint: str | os.PathLike[str], *, threads: int = 0, rules: Rules = "standard",
-             interface_law: Law | None = None, gradual_starts: Mapping[int, float] = {}, output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0,
+             interfaces: Mapping[int | str, str] = {}, output: str | os.PathLike[str] | None = None, checkpoint_every: int = 0,
              hash_every: int = 0, record_history: bool = True, progress: bool = False, allow_findings: bool = False,
              record_contact: Mapping[int, tuple[float, float] | None] = {}) -> Run: ...
     @staticmethod

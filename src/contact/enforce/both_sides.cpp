@@ -188,9 +188,7 @@ void BothSides::gather_pressed() {
       pressed_[at(held_own_[at(node)])].add(k, met.contact.normal);
       const auto& corner = surface_.surface().local()[at(facet)];
       for (std::size_t i = 0; i < 4; ++i) {
-        if (met.contact.weight[i] != 0.0) {
-          pressed_[at(surface_own_[at(corner[i])])].add(met.contact.weight[i] * k, met.contact.normal);
-        }
+        if (met.contact.weight[i] != 0.0) { pressed_[at(surface_own_[at(corner[i])])].add(met.contact.weight[i] * k, met.contact.normal); }
       }
     }
   }

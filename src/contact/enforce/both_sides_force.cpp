@@ -22,7 +22,8 @@ constexpr double exhausted = 1e-10;
 
 /// How the node moves relative to the facet's point under it, with the pair's inverse mass: springs that press on one node share its mass
 /// in proportion to their stiffness along the normal (a node over the corner of four facets has four), so
-///   1/m = (n.P_s n/k)/m_s + sum H_k (n.P_k n/k)/m_k,   P = sum k' H' n' n'^T over all pairs of the node that act; pairs yet to touch: alone.
+///   1/m = (n.P_s n/k)/m_s + sum H_k (n.P_k n/k)/m_k,   P = sum k' H' n' n'^T over all pairs of the node that act; pairs yet to touch:
+///   alone.
 BothSides::Opening BothSides::opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const {
   const auto& corner = surface_.surface().local()[at(facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };

@@ -64,7 +64,6 @@ PassTotals& PassTotals::operator+=(const PassTotals& b) {
 
 Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
     : options_(options),
-      law_{options.rules.law == Law::stiffening ? options.gap : 0.0},
       two_passes_(!one_pass),
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       state_(held_nodes),
@@ -122,18 +121,19 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
     incremental_.update(held, surface, tracked_, options_.gap);
     return;
   }
+  if (stale_) largest_gap_ = options_.gap;
+  if (stale_ && options_.automatic_gap) {
+    largest_gap_ = std::max(options_.gap, 0.5 * (held.largest_thickness() + surface.largest_thickness()));
+  }
   if (stale_) std::fill(quiet_.begin(), quiet_.end(), std::uint8_t{awake});
   skin_ = 0.25 * size_;
-  const double reach = std::max(options_.gap, largest_depth_);
+  const double reach = std::max(largest_gap_, largest_depth_);
   // A held node's distance changes by at most slack() <= skin until the next build: twice the skin covers both ends.
   const auto reach_of = [&](Index i) {
     if (!held.node_active(i)) return -1.0;
     const NodeState& s = state_[at(i)];
     if (s.held == 0 || s.facet == no_index || !surface.active(s.facet)) return reach;
-    // Lists are made with the usual strips; wider ones may bring a facet nearer by what they are wider.
-    const double wider =
-        s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
-    return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider);
+    return std::max(reach, std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_);
   };
   const bool renewed = candidates_.update(held, surface, motion, reach_of, skin_, stale_, executor_);
   if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);

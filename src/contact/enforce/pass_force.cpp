@@ -42,18 +42,18 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   const Index node = held.nodes()[at(i)];
   const Vec3 v = host.v[at(node)] - (host.dt > 0.0 ? mean_step_ / host.dt : Vec3{});
   const Vec3 flight = (1.5 * step_growth * host.dt) * v;
-  if (norm(flight) + 2.0 * surface_step_ <= std::max(options_.gap, smallest_depth_)) return;
+  if (norm(flight) + 2.0 * surface_step_ <= std::max(largest_gap_, smallest_depth_)) return;
   Bounds path;
   path.include(held.x()[at(i)]);
   path.include(held.x()[at(i)] + flight);
   double largest = 0.0;
-  candidates_.near(path, options_.gap + 2.0 * surface_step_, [&](Index f) {
+  candidates_.near(path, largest_gap_ + 2.0 * surface_step_, [&](Index f) {
     // The boxes of the lists are as old as the lists: only those of now may count.
     Bounds box = facet_bounds(surface.patch(f));
-    box.inflate(options_.gap + 2.0 * surface_step_);
+    box.inflate(largest_gap_ + 2.0 * surface_step_);
     if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
   });
-  held_loads.node[at(i)].own_stiffness += largest * law_.tangent(1e30);
+  held_loads.node[at(i)].own_stiffness += largest * law_of(largest_gap_).tangent(1e30);
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
 
@@ -91,15 +91,15 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   const double way = 1.5 * step_growth * host.dt * speed;
   if (norm(r - distance * n) > way) return 0.0;
   // Not further than every list reaches, nor where far() may pass a node over: what is said must not depend on how old the lists are.
-  const double reach = std::max(options_.gap, largest_depth_);
-  if (norm(r) > (state_[at(i)].in_front != 0 ? std::min(reach, options_.gap + way) : reach)) return 0.0;
+  const double reach = std::max(largest_gap_, largest_depth_);
+  if (norm(r) > (state_[at(i)].in_front != 0 ? std::min(reach, largest_gap_ + way) : reach)) return 0.0;
   const double width = (1.0 - border_flat) * border_strip * side;
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);
   // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node
   // enters within a step takes and gives other energies than it holds by up to h^2 K/m, and no first force corrects it as the normal one
   // is.
-  const double curvature = 16.0 * 8.0 * law_.potential(penetration) / (width * width);
+  const double curvature = 16.0 * 8.0 * touch.law.potential(penetration) / (width * width);
   return 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * curvature;
 }
 
@@ -120,8 +120,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double pair_inverse_mass = touch.contact || options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch) : 0.0;
   // What is said of nodes that are not in contact must not depend on how old the lists are: a node that far() passes over closes in by
   // less than a quarter of its way to the gap in a step. Here: only nodes that come nearer than that.
-  if (options_.gap > 0.0 && -motion.rate * host.dt >= -0.25 * penetration) {
-    totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
+  if (touch.full_gap > 0.0 && -motion.rate * host.dt >= -0.25 * penetration) {
+    totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / touch.full_gap);
   }
   // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
   const double grown = growth(before);
@@ -137,7 +137,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     if (may_touch && touch.pair_open) { touch.pair = force_of(held, surface, touch.measure, i, touch.gap, touch.widens); }
     if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
       const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
-      double tangent = touch.pair.stiffness * law_.tangent(reached) + touch.pair.extra_tangent;
+      double tangent = touch.pair.stiffness * touch.law.tangent(reached) + touch.pair.extra_tangent;
       if (options_.rubs()) {
         const double pressure = touch.pair.magnitude / surface.facet_area(touch.facet);
         const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
@@ -165,8 +165,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
         reaction.stiffness = std::max(reaction.stiffness, tangent);
       }
     }
-    if (law_.stiffens() && closing > 0.0) {
-      const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);
+    if (touch.law.stiffens() && closing > 0.0) {
+      const double room = std::max(touch.full_gap - penetration, (1.0 - NormalLaw::bend) * touch.full_gap);
       const bool soon = host.dt <= 0.0 || 0.5 * room < 2.0 * host.dt * closing;
       if (soon && 0.5 * room / closing < totals.kinematic_step) {
         totals.kinematic_step = 0.5 * room / closing;
@@ -206,12 +206,12 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * pair_inverse_mass;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   double stored = touch.pair.potential;
-  const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
+  const double lightness = inverse_mass * touch.pair.stiffness * touch.law.tangent(penetration) * host.dt * host.dt;
   const bool light = lightness > light_pair || before.light != 0;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (motion.rate - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
     const double coming = foreseen_step(h_before, host.dt);
-    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
+    const Switching s{touch.law, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
     double force = switched.force;
     stored = switched.stored;
@@ -220,7 +220,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     const double leaves = motion.rate + 0.5 * (host.dt + longest) * (inverse_mass * touch.pair.magnitude + others);
     if (light && leaves * longest > penetration && grown == 0.0 && (fresh ? moved_in > penetration : before.reckoned != 0)) {
       force = last_force({motion.rate, host.dt, coming, inverse_mass, others, -made});
-      const double bound = touch.pair.stiffness * law_.force(4.0 * coming * leaves);
+      const double bound = touch.pair.stiffness * touch.law.force(4.0 * coming * leaves);
       force = std::clamp(force, switched.force - bound, switched.force + bound);
       const double rate = motion.rate + 0.5 * (host.dt + coming) * (inverse_mass * force + others);
       stored = 0.5 * force * rate * coming + made_by_changing_step(force, host.dt, coming, motion.rate, rate);
@@ -251,7 +251,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {
-    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / pair_inverse_mass);
+    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * touch.law.tangent(penetration) / pair_inverse_mass);
     after.damping = std::max(-c * motion.rate, -normal_force);
     totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
     on_node += after.damping * touch.normal;
