@@ -61,7 +61,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 4096));
   run_app->add_option("--profile", run.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
   const char* interface_help =
-      "ID:KEY=VALUE..., settings between commas of an interface of TYPE3 or TYPE5, or of all: law=stiffening or constant, gap=auto or card (half of the "
+      "ID:KEY=VALUE..., settings between commas of an interface of TYPE3 or TYPE5, or of all: law=stiffening or constant, gap=auto or card "
+      "(half of the "
       "thickness of both sides), initial=keep, offset, project or ignore (initial penetrations), damping=X (of critical), depth=X (how far "
       "behind a segment a node is met), start=X (time over which initial penetrations are pushed out)";
   run_app->add_option("--interface", run.interfaces, interface_help)->allow_extra_args(false);

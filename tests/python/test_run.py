@@ -362,6 +362,18 @@ def test_interfaces_that_are_not_there(tmp_path, arguments, words):
         abut.Run(two_blocks().build(), **arguments)
 
 
+def test_settings_of_an_interface_reach_it(tmp_path):
+    """Damping shows as DW; `all` is overruled by a choice that names the interface; run.json keeps what was set."""
+    model = two_blocks().build()
+    plain, damped = abut.Run(model, threads=1), abut.Run(model, threads=1, interfaces={"all": "damping=0.5"}, output=tmp_path / "damped")
+    none = abut.Run(model, threads=1, interfaces={"all": "damping=0.5", 1: "damping=0"})
+    for run in (plain, damped, none):
+        run.advance_to_end()
+    assert plain.interfaces[0].dw == 0.0 and damped.interfaces[0].dw > 0.0 and none.state_hash == plain.state_hash
+    assert json.loads(next((tmp_path / "damped").glob("run.json")).read_text())["settings"]["interfaces"] == ["all:damping=0.5"]
+    assert plain.interfaces[0].facing == [1.0, 1.0] and plain.interfaces[0].peak_approach >= plain.interfaces[0].largest_approach
+
+
 def test_the_inspection_knows_of_choices():
     """The first step is that of the choices; an interface that is not there is refused as by a run."""
     model = two_blocks().build()
