@@ -9,7 +9,7 @@ _abut() {
     run:-o|run:--output) COMPREPLY=($(compgen -d -- "$current")); return ;;
     run:--threads) return ;;
     run:--profile) COMPREPLY=($(compgen -W 'standard reference' -- "$current")); return ;;
-    run:--interface) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    run:--interface) return ;;
     run:--checkpoint-every) return ;;
     run:--record-contact) return ;;
     run:--hash-every) return ;;
@@ -19,7 +19,7 @@ _abut() {
     resume:--threads) return ;;
     resume:--checkpoint-every) return ;;
     check:--profile) COMPREPLY=($(compgen -W 'standard reference' -- "$current")); return ;;
-    check:--interface) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    check:--interface) return ;;
     check:--orient) COMPREPLY=($(compgen -W 'none auto' -- "$current")); return ;;
     check:--write-deck) COMPREPLY=($(compgen -f -- "$current")); return ;;
     report:-o|report:--output) COMPREPLY=($(compgen -f -- "$current")); return ;;
