@@ -132,7 +132,8 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   touch.penetration = gap - m.distance;
   // A node that was in front a step ago, that the swept test caught, or that touches at the start comes through the front.
   if (!was_held && (meets || touch.penetration > 0.0)) {
-    touch.widens = touch.fresh_hit || !settled_ || m.distance - host.dt * kinematics(host, held, surface, i, touch).rate >= 0.0;
+    const double came_from = m.distance - host.dt * kinematics(host, held, surface, i, touch).rate;
+    touch.widens = touch.fresh_hit || !settled_ || came_from >= -1e-10 * size_;  // bodies that touch begin at zero, but for rounding
   } else if (!was_held) {
     touch.widens = true;
   }

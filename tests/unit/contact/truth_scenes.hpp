@@ -55,7 +55,7 @@ class Oracle {
       Vec3 relative = v;
       for (std::size_t c = 0; c < 4; ++c) { relative -= m.closest.weight[c] * v_surface[at(surface.surface().local()[at(m.facet)][c])]; }
       const double a_step_ago = m.distance - dt * dot(relative, m.normal);
-      was_in_front = a_step_ago >= 0.0;
+      was_in_front = a_step_ago >= -1e-10 * length_[at(m.facet)];
       if (m.distance < 0.0 && -m.distance <= limit && dt > 0.0 && -a_step_ago > limit) t.ignored = true;
       if (m.distance < 0.0 && (-m.distance > limit || t.ignored)) meets = false;
     }
