@@ -90,7 +90,8 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   };
   bool meets = false;
   double gap = 0.0;
-  after.in_front = m.found() && !m.closest.beyond && m.distance >= 0.0 ? 1 : 0;
+  // In front as a free node sees it: without the wider strips of held ones.
+  after.in_front = m.found() && !touch.widens && !m.closest.beyond && m.distance >= 0.0 ? 1 : 0;
   if (m.found()) {
     take(m);
     gap = gap_of(touch.full_gap, m.distance, depth_[at(m.facet)], after);
