@@ -31,7 +31,7 @@ int check_command(const CheckArguments& arguments) {
   std::vector<Diagnostic> findings;
   try {
     const Model model = Model::read(arguments.deck, {.orient = arguments.orient, .write_deck = arguments.write_deck});
-    const Inspection inspection = model.inspect(choices_of(arguments.profile, {}), true);
+    const Inspection inspection = model.inspect(choices_of(arguments.profile, arguments.interfaces), true);
     findings.assign(model.findings().begin(), model.findings().end());
     bool good = true;
     for (const ContactFinding& c : inspection.contact) {

@@ -15,8 +15,7 @@ struct RunArguments {
   std::filesystem::path output;  ///< empty: ./NAME
   int threads = 0;               ///< 0: all that the machine has
   std::string profile = "standard";
-  std::string interface_law;                 ///< empty: the profile's
-  std::vector<std::string> contact_ramps;    ///< ID:TIME
+  std::vector<std::string> interfaces;       ///< ID:KEY=VALUE,...
   std::vector<std::string> contact_records;  ///< ID, ID:FROM or ID:FROM:TO
   int checkpoint_every = 0;                  ///< 0: as /RFILE says
   int hash_every = 0;
@@ -39,6 +38,7 @@ struct ResumeArguments {
 struct CheckArguments {
   std::filesystem::path deck;
   std::string profile = "standard";
+  std::vector<std::string> interfaces;  ///< as of run
   bool json = false;
   bool orient = false;
   std::filesystem::path write_deck;
@@ -67,11 +67,11 @@ struct KeywordsArguments {
 [[nodiscard]] int report_command(const ReportArguments& arguments);
 [[nodiscard]] int replay_command(const ReplayArguments& arguments);
 
-/// @pre profile is "standard" or "reference", law is "", "stiffening" or "constant"
-[[nodiscard]] inline Choices choices_of(std::string_view profile, std::string_view law) {
+/// @pre profile is "standard" or "reference"
+[[nodiscard]] inline Choices choices_of(std::string_view profile, const std::vector<std::string>& interfaces) {
   Choices choices;
   choices.rules = profile == "reference" ? Rules::reference : Rules::standard;
-  if (!law.empty()) choices.interface_law = law == "constant" ? contact::Law::constant : contact::Law::stiffening;
+  for (const std::string& text : interfaces) choices.interfaces.push_back(interface_choice(text));
   return choices;
 }
 

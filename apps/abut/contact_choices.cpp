@@ -35,15 +35,6 @@ std::vector<double> read_choice(const char* option, const std::string& text, std
 
 }  // namespace
 
-std::vector<GradualStart> gradual_starts(std::span<const std::string> texts) {
-  std::vector<GradualStart> out;
-  for (const std::string& text : texts) {
-    const std::vector<double> numbers = read_choice("--contact-ramp", text, 1, 1);
-    out.push_back({static_cast<Id>(numbers[0]), numbers[1]});
-  }
-  return out;
-}
-
 std::vector<ContactRecording> contact_recordings(std::span<const std::string> texts) {
   std::vector<ContactRecording> out;
   for (const std::string& text : texts) {

@@ -9,10 +9,7 @@
 
 namespace abut::app {
 
-/// "--contact-ramp ID:TIME". @throws RunError naming the text and what is wrong with it
-[[nodiscard]] std::vector<GradualStart> gradual_starts(std::span<const std::string> texts);
-
-/// "--record-contact ID[:FROM[:TO]]". @throws RunError as above
+/// "--record-contact ID[:FROM[:TO]]". @throws RunError naming the text and what is wrong with it
 [[nodiscard]] std::vector<ContactRecording> contact_recordings(std::span<const std::string> texts);
 
 }  // namespace abut::app

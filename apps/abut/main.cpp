@@ -52,7 +52,6 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return abut::version_text(); });
   const CLI::IsMember profiles({"standard", "reference"});
-  const CLI::IsMember laws({"stiffening", "constant"});
 
   RunArguments run;
   CLI::App* run_app = app.add_subcommand("run", "run a deck");
@@ -61,18 +60,16 @@ int main(int argc, char** argv) {
   run_app->add_option("--threads", run.threads, "number of threads (default: all); results do not depend on it")
       ->check(CLI::Range(1, 4096));
   run_app->add_option("--profile", run.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
-  run_app
-      ->add_option("--interface-law", run.interface_law,
-                   "normal law of contacts with a gap: stiffening or constant (default: the profile's)")
-      ->check(laws);
+  const char* interface_help =
+      "ID:KEY=VALUE..., settings between commas of an interface of TYPE3 or TYPE5, or of all: law=stiffening or constant, gap=auto or card "
+      "(half of the "
+      "thickness of both sides), initial=keep, offset, project or ignore (initial penetrations), damping=X (of critical), depth=X (how far "
+      "behind a segment a node is met), start=X (time over which initial penetrations are pushed out)";
+  run_app->add_option("--interface", run.interfaces, interface_help)->allow_extra_args(false);
   run_app
       ->add_option("--checkpoint-every", run.checkpoint_every,
                    "write a checkpoint every N cycles (default: as /RFILE of the deck says); there is one at the end in any case")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
-  run_app
-      ->add_option("--contact-ramp", run.contact_ramps,
-                   "ID:TIME, push initial penetrations of an interface out over this time from its birth on (press fits)")
-      ->allow_extra_args(false);
   run_app
       ->add_option("--record-contact", run.contact_records,
                    "ID[:FROM[:TO]], write all inputs of an interface to NAME_contact_ID.calls in the run folder, for abut replay")
@@ -105,6 +102,7 @@ int main(int argc, char** argv) {
   CLI::App* check_app = app.add_subcommand("check", "read and validate a deck, print a summary");
   check_app->add_option("DECK", check.deck, "Starter deck NAME_0000.rad")->required();
   check_app->add_option("--profile", check.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
+  check_app->add_option("--interface", check.interfaces, interface_help)->allow_extra_args(false);
   check_app->add_flag("--json", check.json, "print JSON");
   check_app->add_option("--orient", check_orient, orient_help)->check(orientations)->capture_default_str();
   check_app->add_option("--write-deck", check.write_deck, write_help)->needs("--orient");

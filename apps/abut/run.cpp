@@ -103,8 +103,7 @@ int run_command(const RunArguments& arguments) {
   }
   RunSettings settings;
   settings.threads = arguments.threads;
-  settings.choices = choices_of(arguments.profile, arguments.interface_law);
-  settings.choices.gradual_starts = gradual_starts(arguments.contact_ramps);
+  settings.choices = choices_of(arguments.profile, arguments.interfaces);
   settings.recordings = contact_recordings(arguments.contact_records);
   settings.output = arguments.output.empty() ? std::filesystem::path(model.name()) : arguments.output;
   settings.checkpoint_every = arguments.checkpoint_every;

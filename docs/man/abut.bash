@@ -9,9 +9,8 @@ _abut() {
     run:-o|run:--output) COMPREPLY=($(compgen -d -- "$current")); return ;;
     run:--threads) return ;;
     run:--profile) COMPREPLY=($(compgen -W 'standard reference' -- "$current")); return ;;
-    run:--interface-law) COMPREPLY=($(compgen -W 'stiffening constant' -- "$current")); return ;;
+    run:--interface) return ;;
     run:--checkpoint-every) return ;;
-    run:--contact-ramp) return ;;
     run:--record-contact) return ;;
     run:--hash-every) return ;;
     run:--orient) COMPREPLY=($(compgen -W 'none auto' -- "$current")); return ;;
@@ -20,14 +19,15 @@ _abut() {
     resume:--threads) return ;;
     resume:--checkpoint-every) return ;;
     check:--profile) COMPREPLY=($(compgen -W 'standard reference' -- "$current")); return ;;
+    check:--interface) return ;;
     check:--orient) COMPREPLY=($(compgen -W 'none auto' -- "$current")); return ;;
     check:--write-deck) COMPREPLY=($(compgen -f -- "$current")); return ;;
     report:-o|report:--output) COMPREPLY=($(compgen -f -- "$current")); return ;;
   esac
   case $verb in
-    run) COMPREPLY=($(compgen -W '-h --help -o --output --threads --profile --interface-law --checkpoint-every --contact-ramp --record-contact --hash-every --timing --quiet --orient --write-deck --allow-findings' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current") $(compgen -f -X '!*_[0-9][0-9][0-9][0-9].rad' -- "$current")) ;;
+    run) COMPREPLY=($(compgen -W '-h --help -o --output --threads --profile --interface --checkpoint-every --record-contact --hash-every --timing --quiet --orient --write-deck --allow-findings' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current") $(compgen -f -X '!*_[0-9][0-9][0-9][0-9].rad' -- "$current")) ;;
     resume) COMPREPLY=($(compgen -W '-h --help --deck --threads --checkpoint-every --timing --quiet' -- "$current")) ;;
-    check) COMPREPLY=($(compgen -W '-h --help --profile --json --orient --write-deck' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current") $(compgen -f -X '!*_[0-9][0-9][0-9][0-9].rad' -- "$current")) ;;
+    check) COMPREPLY=($(compgen -W '-h --help --profile --interface --json --orient --write-deck' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current") $(compgen -f -X '!*_[0-9][0-9][0-9][0-9].rad' -- "$current")) ;;
     report) COMPREPLY=($(compgen -W '-h --help -o --output --all-fields --quiet' -- "$current")); [[ $current == -* ]] || COMPREPLY=($(compgen -d -- "$current")) ;;
     replay) COMPREPLY=($(compgen -W '-h --help --steps' -- "$current")) ;;
     keywords) COMPREPLY=($(compgen -W '-h --help' -- "$current")) ;;

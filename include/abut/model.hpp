@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -78,17 +79,29 @@ struct ContactFinding {
 /// The two rule sets (docs/guide/profiles.md).
 enum class Rules { standard, reference };
 
-/// A gradual start of an interface (contact::Options::start_duration): initial penetrations are pushed out over this time.
-struct GradualStart {
-  Id interface_id = 0;
-  double duration = 0.0;  ///< time, >= 0
+/// Settings of an interface of TYPE3 or TYPE5 that have no field on its card: contact::Options has them all. What is not set stays as the
+/// rule set and the card have it.
+struct InterfaceChoice {
+  Id interface_id = 0;                      ///< 0: all interfaces of TYPE3 and TYPE5; a choice that names one comes before those of all
+  std::optional<contact::Law> law;          ///< normal law of contacts with a gap
+  std::optional<bool> automatic_gap;        ///< half of the thickness of both sides, at least the card's Gap
+  std::optional<contact::Initial> initial;  ///< initial penetrations; `project` moves nodes before the masses are made
+  std::optional<double> damping;            ///< fraction of critical, 0 to 1
+  std::optional<double> depth_limit;        ///< length, > 0
+  std::optional<double> start_duration;     ///< time, >= 0: gradual start
+  bool operator==(const InterfaceChoice&) const = default;
 };
+
+/// "ID:KEY=VALUE,...", ID an interface id or "all", keys law (stiffening, constant), gap (auto, card), initial (keep, offset, project,
+/// ignore), damping, depth, start. @throws RunError naming the text and what is wrong with it
+[[nodiscard]] InterfaceChoice interface_choice(std::string_view text);
+/// The text that interface_choice() reads, keys in the order above.
+[[nodiscard]] std::string to_string(const InterfaceChoice& choice);
 
 /// Choices of the mechanics that a deck does not make.
 struct Choices {
   Rules rules = Rules::standard;
-  std::optional<contact::Law> interface_law;  ///< normal law of contacts with a gap; none: the rule set's
-  std::vector<GradualStart> gradual_starts;   ///< of interfaces of TYPE3 and TYPE5
+  std::vector<InterfaceChoice> interfaces;  ///< of two that set the same thing of the same interface the later one counts
 };
 
 /// What can be said of a model before it runs.
@@ -144,11 +157,12 @@ class Model {
 
   /// Looks at the contacts with the masses, velocities and step of the first cycle.
   /// @param with_step  the first step too: the interfaces are built for it
-  /// @throws RunError when a gradual start is of an interface that is not there or cannot have one, or has a negative duration
+  /// @throws RunError when a choice is of an interface that is not there or cannot have it, or out of range
   [[nodiscard]] Inspection inspect(const Choices& choices = {}, bool with_step = false) const;
 
   struct Impl;
-  [[nodiscard]] const Impl& impl() const { return *impl_; }  ///< internal
+  [[nodiscard]] const Impl& impl() const { return *impl_; }                                           ///< internal
+  [[nodiscard]] static Model of(std::shared_ptr<const Impl> impl) { return Model(std::move(impl)); }  ///< internal
 
  private:
   explicit Model(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}

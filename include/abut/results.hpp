@@ -1,7 +1,9 @@
 // What a run says about itself: energies, interfaces, the time step, how it ended. Value types in the model's units.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -38,8 +40,14 @@ struct InterfaceResult {
   Index in_contact = 0;                           ///< held nodes that touch, both passes
   double largest_penetration = 0.0;               ///< length
   Index deepest_node = no_index;                  ///< the one that has penetrated by that much
-  std::span<const Index> crossed;                 ///< nodes that would have jumped through in the last step; valid until the next cycle
-  std::span<const Index> lost;                    ///< nodes that went over a free border in the last step; valid until the next cycle
+  /// Largest normal approach of a held node in the last step, in units of the gap (contact::StepResult::largest_approach), and the largest
+  /// in any step since the last row of the time history before this one. 0 for TYPE7 and without a gap.
+  double largest_approach = 0.0, peak_approach = 0.0;
+  /// Share of the first and second surface near the other one that faces it, by area, when it was last looked at (docs/guide/outputs.md).
+  /// NaN: TYPE7, a set of nodes, or nothing decided yet.
+  std::array<double, 2> facing{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  std::span<const Index> crossed;  ///< nodes that would have jumped through in the last step; valid until the next cycle
+  std::span<const Index> lost;     ///< nodes that went over a free border in the last step; valid until the next cycle
 };
 
 /// Why and how a run ended.

@@ -38,7 +38,7 @@ struct ContactRecording {
 
 struct RunSettings {
   int threads = 0;                               ///< 0: all that the machine has
-  Choices choices;                               ///< rule set and contact law
+  Choices choices;                               ///< rule set and settings of interfaces
   std::filesystem::path output;                  ///< run folder (docs/guide/outputs.md); empty: no files are written
   int checkpoint_every = 0;                      ///< cycles between checkpoints in the run folder; 0: as /RFILE of the deck says
   std::vector<ContactRecording> recordings;      ///< each interface at most once; not gone on with by a resumed run
@@ -84,7 +84,8 @@ class Run {
 
   /// Inspects the contacts, makes the first state, opens the files.
   /// @throws InputError when the inspection finds errors (unless they are allowed); RunError when a file cannot be written, or a
-  ///         recording or gradual start is of an interface that is not there, asked for twice, or without a run folder
+  ///         recording or choice is of an interface that is not there or cannot have it, or a recording asked for twice or without a run
+  ///         folder
   explicit Run(const Model& model, const RunSettings& settings = {});
   /// Goes on from the newest whole checkpoint of a run folder, with its files (docs/guide/restart.md): the same bits as if it had never
   /// stopped. When the run is finished, the next Engine deck takes over.

@@ -74,6 +74,7 @@ void Cycle::advance(Sink& sink) {
 
 void Cycle::decide_outputs() {
   const double t = state_.times.t;
+  history_written_ = history_due_;
   const model::Controls& c = model_.controls;
   history_due_ = t >= std::min(c.t_end, next_history_);
   if (t >= next_history_) next_history_ = std::max(t, next_history_ + c.history_interval);
@@ -115,6 +116,7 @@ void Cycle::internal_forces(StepLimits& limits) {
 
 void Cycle::contact_forces(StepLimits& limits) {
   if (eroded_) erode();
+  contact_thickness_.update(state_.times.cycle, groups_, interfaces_);
   record_contacts();
   const state::StepTimes& t = state_.times;
   contact_mobility_.update(state_, boundary_, imposed_, bodies_, contact_stiffness_);
@@ -145,6 +147,8 @@ void Cycle::contact_forces(StepLimits& limits) {
     out.in_contact = r.in_contact;
     out.largest_penetration = r.largest_penetration;
     out.deepest_node = r.deepest_node;
+    out.largest_approach = r.largest_approach;
+    out.peak_approach = std::max(history_written_ ? 0.0 : out.peak_approach, r.largest_approach);
     out.crossed = i.contact.nodes_crossed();
     out.lost = i.contact.nodes_lost();
     if (r.kinematic_step < limits.interface_step) {
@@ -152,6 +156,7 @@ void Cycle::contact_forces(StepLimits& limits) {
       limits.interface_controller = {StepController::Kind::interface, model_.interfaces[static_cast<std::size_t>(i.model_index)].id};
     }
   }
+  if (history_due_) contact_facing_.look(state_, interface_results_);
   if (releases_) release_boundary_conditions();
 }
 

@@ -18,7 +18,9 @@
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
 #include "cycle/contact_area.hpp"
+#include "cycle/contact_facing.hpp"
 #include "cycle/contact_mobility.hpp"
+#include "cycle/contact_thickness.hpp"
 #include "cycle/ledger.hpp"
 #include "cycle/run.hpp"
 #include "cycle/sink.hpp"
@@ -114,6 +116,8 @@ class Cycle {
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
   ContactMobility contact_mobility_;
   ContactArea contact_facets_;
+  ContactFacing contact_facing_;
+  ContactThickness contact_thickness_;
   std::vector<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;
   std::vector<Vec3> option_force_, option_moment_;  // #N when an animation is due and there are such options
@@ -128,6 +132,7 @@ class Cycle {
   state::Balance balance_;
   StepController controller_;
   double next_history_ = 0.0, next_animation_ = 0.0;
+  bool history_written_ = false;  ///< in the cycle before
   bool history_due_ = false, animation_due_ = false, listing_due_ = false;
   bool begun_ = false;
   bool eroded_ = false;

@@ -28,7 +28,8 @@ void persist_controller(state::Archive& a, StepController& controller) {
 
 void persist_result(state::Archive& a, InterfaceResult& r) {
   for (Vec3* v : {&r.normal_force, &r.tangential_force, &r.normal_impulse, &r.tangential_impulse}) a(*v);
-  for (double* d : {&r.ce, &r.fw, &r.dw, &r.cx, &r.sw, &r.largest_penetration}) a(*d);
+  for (double* d : {&r.ce, &r.fw, &r.dw, &r.cx, &r.sw, &r.largest_penetration, &r.largest_approach, &r.peak_approach}) a(*d);
+  a(r.facing);
   a(r.in_contact);
   a(r.deepest_node);
   if (a.loading()) r.crossed = r.lost = {};  // of the last step only
@@ -98,6 +99,9 @@ void Cycle::persist(state::Archive& a) {
       a(p.sums.momentum);
       a(p.eroded);
     });
+    a(history_due_);
+    contact_facing_.persist(a);
+    contact_thickness_.persist(a, interfaces_);
     a.each(interface_results_, [&a](InterfaceResult& r) { persist_result(a, r); });
     for (std::vector<Vec3>* edited : {&edited_v_, &edited_w_}) {
       a.growing(*edited);

@@ -212,7 +212,8 @@ Severity severity_of(contact::Severity s) {
 
 }  // namespace
 
-InspectedInterface::InspectedInterface(const model::Model& model, const model::Interface& card, std::span<const Vec3> x)
+InspectedInterface::InspectedInterface(const model::Model& model, const model::Interface& card, std::span<const Vec3> x,
+                                       const InterfaceChoices& choices)
     : stiffness_scale_(card.stfac), gap_(card.gap) {
   if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) {
     surface_ = {t3->surface_1, t3->surface_2};
@@ -225,6 +226,7 @@ InspectedInterface::InspectedInterface(const model::Model& model, const model::I
     pairs_ = both_sides_options(model, card, Profile::standard(), x);
     gap_ = pairs_->largest_gap();
   }
+  if (!pairs_ && choice_of(choices, card.id).automatic_gap.value_or(false)) gap_ = std::max(gap_, largest_automatic_gap(model, card));
   for (std::size_t k = 0; k < 2; ++k) {
     if (surface_[k] == no_index) continue;
     for (const model::Segment& s : model.surfaces[at(surface_[k])].segments) {
@@ -250,7 +252,7 @@ contact::InspectionInput InspectedInterface::input(std::span<const Vec3> x) cons
   return in;
 }
 
-std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state) {
+std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state, const InterfaceChoices& choices) {
   std::vector<ContactFinding> out;
   if (model.interfaces.empty()) return out;
   const std::span<const Vec3> x = state.x.empty() ? std::span<const Vec3>(model.node_x) : state.x;
@@ -267,7 +269,7 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
     owners.emplace(model);
   }
   for (const model::Interface& card : model.interfaces) {
-    const InspectedInterface inspected(model, card, x);
+    const InspectedInterface inspected(model, card, x, choices);
     contact::InspectionInput input = inspected.input(x);
     std::vector<double> sizes, stiffness;
     if (!input.side[0].nodes.empty()) {

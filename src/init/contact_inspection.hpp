@@ -10,6 +10,7 @@
 #include "abut/model.hpp"
 #include "core/diagnostic.hpp"
 #include "core/profile.hpp"
+#include "init/contact_options.hpp"
 #include "model/model.hpp"
 
 namespace abut::init {
@@ -25,7 +26,8 @@ struct InspectedState {
 };
 
 /// All interfaces, in the order of the model.
-[[nodiscard]] std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state);
+[[nodiscard]] std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state,
+                                                           const InterfaceChoices& choices = {});
 
 /// One line for people: what, the first 20 ids, what to do, the code.
 [[nodiscard]] Diagnostic to_diagnostic(const ContactFinding& finding);
@@ -47,7 +49,8 @@ struct TurnedSurface {
 /// Surfaces of an interface as the inspection takes them. Owns what the spans refer to; x are positions, #N.
 class InspectedInterface {
  public:
-  InspectedInterface(const model::Model& model, const model::Interface& card, std::span<const Vec3> x);
+  InspectedInterface(const model::Model& model, const model::Interface& card, std::span<const Vec3> x,
+                     const InterfaceChoices& choices = {});
   InspectedInterface(const InspectedInterface&) = delete;
   InspectedInterface& operator=(const InspectedInterface&) = delete;
   [[nodiscard]] contact::InspectionInput input(std::span<const Vec3> x) const;

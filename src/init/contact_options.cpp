@@ -36,7 +36,8 @@ contact::FrictionFilter filter_of(const model::Interface& card, const Profile& p
   return {};
 }
 
-/// Thickness behind a segment for gaps: virtual thickness of the part, else the element's, else the property's; 0 for solids.
+}  // namespace
+
 double gap_thickness(const model::Model& model, const ElementRef& e) {
   if (e.kind != ElementKind::shell4 && e.kind != ElementKind::shell3) return 0.0;
   const model::Part& part = model.parts[static_cast<std::size_t>(part_of(model, e))];
@@ -46,6 +47,8 @@ double gap_thickness(const model::Model& model, const ElementRef& e) {
   if (i < own.size() && own[i] > 0.0) return own[i];
   return property_thickness(model.properties[static_cast<std::size_t>(part.property)]);
 }
+
+namespace {
 
 struct ShortestSides {
   std::vector<double> of;  ///< per segment
@@ -83,7 +86,8 @@ double default_gap(const model::Model& model, const model::InterfaceType7& t7, c
   return std::min(thickness, 0.5 * side);
 }
 
-/// Largest thickness of the shells around each node; 0 without.
+}  // namespace
+
 std::vector<double> nodal_thickness(const model::Model& model) {
   std::vector<double> t(static_cast<std::size_t>(model.node_count()), 0.0);
   const auto add = [&](const auto& elements, ElementKind kind) {
@@ -99,6 +103,8 @@ std::vector<double> nodal_thickness(const model::Model& model) {
   add(model.sh3ns, ElementKind::shell3);
   return t;
 }
+
+namespace {
 
 void variable_gap(const model::Model& model, const model::InterfaceType7& t7, const model::Surface& surface, const ShortestSides& sides,
                   contact::BothSidesOptions& o) {
@@ -122,6 +128,45 @@ void variable_gap(const model::Model& model, const model::InterfaceType7& t7, co
 
 }  // namespace
 
+InterfaceChoice choice_of(const InterfaceChoices& choices, Id interface_id) {
+  InterfaceChoice all;
+  all.interface_id = interface_id;
+  const auto take = [](auto& into, const auto& from) {
+    if (from) into = from;
+  };
+  for (const Id id : {Id{0}, interface_id}) {
+    for (const InterfaceChoice& c : choices) {
+      if (c.interface_id != id) continue;
+      take(all.law, c.law);
+      take(all.automatic_gap, c.automatic_gap);
+      take(all.initial, c.initial);
+      take(all.damping, c.damping);
+      take(all.depth_limit, c.depth_limit);
+      take(all.start_duration, c.start_duration);
+    }
+  }
+  return all;
+}
+
+double largest_automatic_gap(const model::Model& model, const model::Interface& card) {
+  const auto of_surface = [&model](Index surface) {
+    double largest = 0.0;
+    for (const model::Segment& s : model.surfaces[static_cast<std::size_t>(surface)].segments) {
+      largest = std::max(largest, gap_thickness(model, s.element));
+    }
+    return largest;
+  };
+  if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) {
+    return 0.5 * (of_surface(t3->surface_1) + of_surface(t3->surface_2));
+  }
+  const auto* t5 = std::get_if<model::InterfaceType5>(&card.type);
+  if (t5 == nullptr) return 0.0;
+  const std::vector<double> thickness = nodal_thickness(model);
+  double largest = 0.0;
+  for (const Index n : t5->nodes) largest = std::max(largest, thickness[static_cast<std::size_t>(n)]);
+  return 0.5 * (largest + of_surface(t5->surface));
+}
+
 contact::Options one_sided_options(const model::Model& model, const model::Interface& card, const Profile& profile,
                                    const InterfaceChoices& choices) {
   contact::Options o;
@@ -134,10 +179,13 @@ contact::Options one_sided_options(const model::Model& model, const model::Inter
   o.death = window_of(model, card).death;
   o.rules = profile.reference_contact ? contact::Rules::reference() : contact::Rules::standard();
   o.shear_limit = profile.reference_contact ? model::infinity : card.ptlim;
-  if (choices.law) o.rules.law = *choices.law;
-  for (const GradualStart& start : choices.starts) {
-    if (start.interface_id == card.id) o.start_duration = start.duration;
-  }
+  const InterfaceChoice choice = choice_of(choices, card.id);
+  o.rules.law = choice.law.value_or(o.rules.law);
+  o.automatic_gap = choice.automatic_gap.value_or(false);
+  o.initial = choice.initial.value_or(contact::Initial::keep);
+  o.damping = choice.damping.value_or(0.0);
+  o.depth_limit = choice.depth_limit.value_or(0.0);
+  o.start_duration = choice.start_duration.value_or(0.0);
   return o;
 }
 

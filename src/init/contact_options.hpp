@@ -13,13 +13,18 @@
 
 namespace abut::init {
 
-using abut::GradualStart;
+/// What a run asks of its interfaces of TYPE3 and TYPE5 beyond their cards.
+using InterfaceChoices = std::vector<InterfaceChoice>;
+/// All that they say of one interface.
+[[nodiscard]] InterfaceChoice choice_of(const InterfaceChoices& choices, Id interface_id);
 
-/// What a run asks of its interfaces beyond their cards.
-struct InterfaceChoices {
-  std::optional<contact::Law> law;   ///< overrides the profile's normal law
-  std::vector<GradualStart> starts;  ///< of TYPE3 and TYPE5
-};
+/// Thickness behind a segment for gaps: virtual thickness of the part, else the element's, else the property's; 0 for solids.
+[[nodiscard]] double gap_thickness(const model::Model& model, const model::ElementRef& e);
+/// Largest such thickness of the shells around each node, #N; 0 without.
+[[nodiscard]] std::vector<double> nodal_thickness(const model::Model& model);
+
+/// Half of the largest thicknesses of both sides of an interface of TYPE3 or TYPE5.
+[[nodiscard]] double largest_automatic_gap(const model::Model& model, const model::Interface& card);
 
 /// TYPE3 and TYPE5.
 [[nodiscard]] contact::Options one_sided_options(const model::Model& model, const model::Interface& card, const Profile& profile,

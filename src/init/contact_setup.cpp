@@ -25,10 +25,14 @@ contact::Surface make_surface(const model::Model& model, const model::Surface& s
   return contact::Surface(std::move(facets), model.node_id);
 }
 
-RunInterface::Side make_side(const model::Model& model, const model::Surface& surface, const FaceOwners* owners, std::span<const Vec3> x) {
+RunInterface::Side make_side(const model::Model& model, const model::Surface& surface, const FaceOwners* owners, std::span<const Vec3> x,
+                             bool automatic_gap = false) {
   RunInterface::Side side;
   for (const model::Segment& s : surface.segments) {
+    const bool shell = s.element.kind == ElementKind::shell4 || s.element.kind == ElementKind::shell3;
     side.stiffness.push_back(segment_stiffness(model, s, x));
+    side.shell.push_back(shell ? s.element : ElementRef{});
+    if (automatic_gap) side.thickness.push_back(gap_thickness(model, s.element));
     if (owners == nullptr) continue;
     side.elements.push_back(owners->of(s.nodes));
     side.corners.push_back(s.nodes);
@@ -64,11 +68,8 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
     const contact::Options options = one_sided_options(model, card, profile, choices);
     RunInterface r{index,
                    contact::Interface::two_surfaces(make_surface(model, first), make_surface(model, second), options),
-                   {make_side(model, first, own, x), make_side(model, second, own, x)}};
-    for (int side = 0; side < 2; ++side) {
-      const RunInterface::Side& s = r.sides[static_cast<std::size_t>(side)];
-      r.contact.set_surface(side, {s.stiffness, {}, s.active, {}});
-    }
+                   {make_side(model, first, own, x, options.automatic_gap), make_side(model, second, own, x, options.automatic_gap)}};
+    for (std::size_t side = 0; side < 2; ++side) set_surface(r, side);
     return r;
   }
   if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
@@ -77,8 +78,13 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
     RunInterface r{
         index,
         contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(model, main), options),
-        {held_side(t5->nodes), make_side(model, main, own, x)}};
-    r.contact.set_surface(1, {r.sides[1].stiffness, {}, r.sides[1].active, {}});
+        {held_side(t5->nodes), make_side(model, main, own, x, options.automatic_gap)}};
+    r.sides[0].shares = node_shares(model, *owners, t5->nodes, x);
+    if (options.automatic_gap) {
+      const std::vector<double> thickness = nodal_thickness(model);
+      for (const Index n : t5->nodes) r.sides[0].thickness.push_back(thickness[static_cast<std::size_t>(n)]);
+    }
+    for (std::size_t side = 0; side < 2; ++side) set_surface(r, side);
     return r;
   }
   const auto& t7 = std::get<model::InterfaceType7>(card.type);
@@ -116,6 +122,15 @@ std::vector<std::uint8_t> carried_nodes(const model::Model& model, const std::fu
 
 }  // namespace
 
+void set_surface(RunInterface& interface, std::size_t side) {
+  const RunInterface::Side& s = interface.sides[side];
+  if (s.active.empty()) {  // held nodes without a surface
+    interface.contact.set_surface(static_cast<int>(side), {s.stiffness, s.thickness, s.node_active, {}});
+  } else {
+    interface.contact.set_surface(static_cast<int>(side), {s.stiffness, s.thickness, s.active, s.node_active});
+  }
+}
+
 std::vector<RunInterface> make_interfaces(const model::Model& model, const Profile& profile, const InterfaceChoices& choices,
                                           state::State& state) {
   std::optional<FaceOwners> owners;
@@ -131,35 +146,57 @@ std::vector<RunInterface> make_interfaces(const model::Model& model, const Profi
   return out;
 }
 
+namespace {
+
+/// Moves held nodes, or with `move_surface` those of the segments, out of what penetrates. @param name  what asks for it, in the note
+void move_out(model::Model& model, Index index, const InterfaceChoices& choices, const FaceOwners& owners, bool move_surface,
+              const std::string& name, Diagnostics& findings) {
+  const model::Interface& card = model.interfaces[static_cast<std::size_t>(index)];
+  const std::vector<Vec3> x(model.node_x.begin(), model.node_x.end());
+  const RunInterface r = make_interface(model, index, Profile::standard(), choices, &owners, x);
+  const std::vector<contact::Projection> moves = r.contact.projections(x, move_surface);
+  const contact::Projection* largest = nullptr;
+  for (const contact::Projection& m : moves) {
+    model.node_x[static_cast<std::size_t>(m.node)] += m.by;
+    if (largest == nullptr || squared_norm(m.by) > squared_norm(largest->by)) largest = &m;
+  }
+  if (largest == nullptr) {
+    findings.note("init.nothing_moved", card.place, fmt::format("{}: nothing penetrates at the start, no node is moved", name));
+    return;
+  }
+  findings.note("init.nodes_moved", card.place,
+                fmt::format("{} moved {} out of initial penetrations, the farthest by {:.6g} (node {}); "
+                            "masses, displacements and the reference shape are those of the moved mesh",
+                            name, moves.size() == 1 ? "1 node" : fmt::format("{} nodes", moves.size()), norm(largest->by),
+                            model.node_id[static_cast<std::size_t>(largest->node)]));
+}
+
+}  // namespace
+
 void settle_initial_penetrations(model::Model& model, Diagnostics& findings) {
   if (std::none_of(model.interfaces.begin(), model.interfaces.end(), moves_nodes)) return;
   const FaceOwners owners(model);
   for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
     model::Interface& card = model.interfaces[i];
     if (!moves_nodes(card)) continue;
-    const std::vector<Vec3> x(model.node_x.begin(), model.node_x.end());
-    const RunInterface r = make_interface(model, static_cast<Index>(i), Profile::standard(), {}, &owners, x);
-    const std::vector<contact::Projection> moves = r.contact.projections(x, inacti_of(card) == 4);
-    const contact::Projection* largest = nullptr;
-    for (const contact::Projection& m : moves) {
-      model.node_x[static_cast<std::size_t>(m.node)] += m.by;
-      if (largest == nullptr || squared_norm(m.by) > squared_norm(largest->by)) largest = &m;
-    }
     const int inacti = inacti_of(card);
+    move_out(model, static_cast<Index>(i), {}, owners, inacti == 4, fmt::format("Inacti {}", inacti), findings);
     std::visit(
         [](auto& type) {
           if constexpr (requires { type.inacti; }) type.inacti = 0;
         },
         card.type);
-    if (largest == nullptr) {
-      findings.note("init.nothing_moved", card.place, fmt::format("Inacti {}: nothing penetrates at the start, no node is moved", inacti));
-      continue;
-    }
-    findings.note("init.nodes_moved", card.place,
-                  fmt::format("Inacti {} moved {} out of initial penetrations, the farthest by {:.6g} (node {}); "
-                              "masses, displacements and the reference shape are those of the moved mesh",
-                              inacti, moves.size() == 1 ? "1 node" : fmt::format("{} nodes", moves.size()), norm(largest->by),
-                              model.node_id[static_cast<std::size_t>(largest->node)]));
+  }
+}
+
+void project_initial_penetrations(model::Model& model, const InterfaceChoices& choices, Diagnostics& findings) {
+  std::optional<FaceOwners> owners;
+  for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+    const model::Interface& card = model.interfaces[i];
+    if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
+    if (choice_of(choices, card.id).initial != contact::Initial::project) continue;
+    if (!owners) owners.emplace(model);
+    move_out(model, static_cast<Index>(i), choices, *owners, false, fmt::format("initial=project of interface {}", card.id), findings);
   }
 }
 
@@ -188,11 +225,7 @@ void update_erosion(const model::Model& model, std::span<RunInterface> interface
       for (std::size_t k = 0; k < s.nodes.size(); ++k) {
         if (signed_idel > 0) s.node_active[k] = carried[static_cast<std::size_t>(s.nodes[k])];
       }
-      if (s.active.empty()) {  // held nodes without a surface
-        r.contact.set_surface(static_cast<int>(side), {{}, {}, s.node_active, {}});
-      } else {
-        r.contact.set_surface(static_cast<int>(side), {s.stiffness, {}, s.active, s.node_active});
-      }
+      set_surface(r, side);
     }
   }
 }

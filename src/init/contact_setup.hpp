@@ -12,6 +12,7 @@
 #include "core/profile.hpp"
 #include "elements/group.hpp"
 #include "init/contact_options.hpp"
+#include "init/contact_stiffness.hpp"
 #include "model/model.hpp"
 #include "state/state.hpp"
 
@@ -23,7 +24,10 @@ struct RunInterface {
   contact::Interface contact;
   /// Per side (0 first, 1 second) and facet: own stiffness, activity, and the elements that contain the facet (Idel).
   struct Side {
-    std::vector<double> stiffness;
+    std::vector<double> stiffness;         ///< of held nodes without a surface: of TYPE5 only
+    std::vector<double> thickness;         ///< of facets or held nodes; empty without an automatic gap
+    std::vector<model::ElementRef> shell;  ///< behind each facet; none of a solid
+    std::vector<NodeShare> shares;         ///< of TYPE5's held nodes
     std::vector<std::uint8_t> active;
     std::vector<Index> nodes;  ///< surface nodes (contact::Surface::nodes()) or held nodes
     std::vector<std::uint8_t> node_active;
@@ -41,6 +45,12 @@ struct RunInterface {
 /// Moves nodes out of initial penetrations where an interface asks for it (Inacti 3: its nodes, 4: the nodes of the segments;
 /// numerics.md 7.2.5, 7.7.1) and says so: one note per interface. For a model as read, before anything is computed from its nodes.
 void settle_initial_penetrations(model::Model& model, Diagnostics& findings);
+
+/// The same for interfaces of TYPE3 and TYPE5 whose choice is `project`: their held nodes are moved. Adds notes.
+void project_initial_penetrations(model::Model& model, const InterfaceChoices& choices, Diagnostics& findings);
+
+/// Hands a side's stiffness, thickness and activity to its interface.
+void set_surface(RunInterface& interface, std::size_t side);
 
 /// Switches off facets whose elements were deleted: Idel 1 when all of them are, Idel 2 when one is or a node of the facet is left
 /// without elements; nodes without elements are let go unless Idel is negative (numerics.md 7.4.7).

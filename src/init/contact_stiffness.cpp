@@ -126,21 +126,37 @@ std::vector<double> secondary_stiffness(const model::Model& model, std::span<con
   return out;
 }
 
-std::vector<double> node_stiffness(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
+std::vector<NodeShare> node_shares(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
                                    std::span<const Vec3> x) {
-  std::vector<double> all(static_cast<std::size_t>(model.node_count()), 0.0);
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> position(static_cast<std::size_t>(model.node_count()), none);
+  for (std::size_t k = 0; k < nodes.size(); ++k) position[static_cast<std::size_t>(nodes[k])] = k;
+  std::vector<NodeShare> shares;
   for (const auto& [key, elements] : owners.all()) {
     const auto shell = std::find_if(elements.begin(), elements.end(), is_shell);
     if (shell == elements.end() && elements.size() != 1) continue;  // between two solids
+    const std::size_t corners = key[3] == no_index ? 3 : 4;
+    if (std::all_of(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(corners),
+                    [&](Index n) { return position[static_cast<std::size_t>(n)] == none; })) {
+      continue;
+    }
     model::Segment face;
     face.element = shell != elements.end() ? *shell : elements.front();
     face.nodes = face_of(model, face.element, key);
-    const bool triangle = key[3] == no_index;
-    const double share = segment_stiffness(model, face, x) / (triangle ? 3.0 : 4.0);
-    for (std::size_t k = 0; k < (triangle ? 3U : 4U); ++k) all[static_cast<std::size_t>(key[k])] += share;
+    const double share = segment_stiffness(model, face, x) / static_cast<double>(corners);
+    for (std::size_t k = 0; k < corners; ++k) {
+      const std::size_t node = position[static_cast<std::size_t>(key[k])];
+      if (node != none) shares.push_back({node, face.element, share});
+    }
   }
-  std::vector<double> out;
-  for (const Index n : nodes) out.push_back(all[static_cast<std::size_t>(n)]);
+  std::stable_sort(shares.begin(), shares.end(), [](const NodeShare& a, const NodeShare& b) { return a.node < b.node; });
+  return shares;
+}
+
+std::vector<double> node_stiffness(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
+                                   std::span<const Vec3> x) {
+  std::vector<double> out(nodes.size(), 0.0);
+  for (const NodeShare& s : node_shares(model, owners, nodes, x)) out[s.node] += s.stiffness;
   return out;
 }
 

@@ -191,12 +191,19 @@ Value vector_value(std::string_view variable, std::span<const Result> Snapshot::
   return {};
 }
 
-Value interface_value(std::string_view variable, Index index) {
+Value interface_value(const model::Model& model, std::string_view variable, Index index) {
   using R = cycle::InterfaceResult;
   static const std::map<std::string_view, double R::*> scalars{{"CE", &R::ce},      {"FW", &R::fw},     {"DW", &R::dw},
                                                                {"CX", &R::cx},      {"SW", &R::sw},     {"CE_ELAST", &R::ce},
                                                                {"CE_FRIC", &R::fw}, {"CE_DAMP", &R::dw}};
   const auto i = static_cast<std::size_t>(index);
+  const model::Interface& card = model.interfaces[i];
+  const bool type3 = std::holds_alternative<model::InterfaceType3>(card.type);
+  if (type3 || std::holds_alternative<model::InterfaceType5>(card.type)) {
+    if (variable == "APPR") return [i](const Snapshot& s) { return s.interfaces[i].peak_approach; };
+    if (variable == "FACE1" && type3) return [i](const Snapshot& s) { return s.interfaces[i].facing[0]; };
+    if (variable == "FACE2") return [i](const Snapshot& s) { return s.interfaces[i].facing[1]; };
+  }
   if (variable == "NC") return [i](const Snapshot& s) { return static_cast<double>(s.interfaces[i].in_contact); };
   if (const auto found = scalars.find(variable); found != scalars.end()) {
     return [i, m = found->second](const Snapshot& s) { return s.interfaces[i].*m; };
@@ -323,6 +330,10 @@ class Builder {
     const std::string prefix = fmt::format("{}/{}/", kind_name(request.kind), id);
     for (const std::string& variable : request.variables) add_variable(prefix, request, variable);
     for (const std::string& variable : always_written(request.kind)) add_variable(prefix, request, variable);
+    if (request.kind != model::ThKind::inter || request.index == no_index) return;
+    for (const char* variable : {"APPR", "FACE1", "FACE2"}) {  // as far as the type has them
+      if (value_of(request, variable)) add_variable(prefix, request, variable);
+    }
   }
 
   void add_variable(const std::string& prefix, const model::ThRequest& request, const std::string& variable) {
@@ -352,7 +363,7 @@ class Builder {
       case model::ThKind::brick:
         return brick_value(model_, variable, lookup_.find(model::ElementKind::brick, request.index));
       case model::ThKind::inter:
-        return interface_value(variable, request.index);
+        return interface_value(model_, variable, request.index);
       case model::ThKind::rwall:
         return vector_value(variable, &Snapshot::walls, request.index);
       case model::ThKind::rbody:

@@ -50,9 +50,9 @@ void Listing::begin(const cycle::Snapshot& first) {
   }
   std::string text = fmt::format("abut {}{}\n", info_.version, info_.commit.empty() ? "" : fmt::format(" ({})", info_.commit));
   for (const std::string& deck : info_.decks) text += fmt::format("Deck        {}\n", deck);
-  text += fmt::format("Settings    profile {}, interface law {}, {} threads, {}, {}\n\n", info_.profile,
-                      info_.interface_law.empty() ? "of the profile" : info_.interface_law, info_.threads, info_.instruction_set,
-                      info_.compiler);
+  text += fmt::format("Settings    profile {}, {} threads, {}, {}\n", info_.profile, info_.threads, info_.instruction_set, info_.compiler);
+  for (const std::string& choice : info_.interfaces) text += fmt::format("Interface   {}\n", choice);
+  text += "\n";
   text += model_summary(*first.model, part_masses(*first.model, first.groups));
   if (!info_.findings.empty()) text += "\nFindings\n";
   for (const Diagnostic& finding : info_.findings) text += "  " + to_string(finding) + "\n";

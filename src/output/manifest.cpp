@@ -48,11 +48,10 @@ void Manifest::begin(const cycle::Snapshot& first) {
   for (const Resumed& r : resumed_) j["resumed"].push_back({{"cycle", r.cycle}, {"time", r.time}, {"at", r.at}});
   j["decks"] = info_.decks;
   j["settings"] = {{"profile", info_.profile},
-                   {"interface_law", info_.interface_law.empty() ? Json(nullptr) : Json(info_.interface_law)},
+                   {"interfaces", info_.interfaces},
                    {"threads", info_.threads},
                    {"instruction_set", info_.instruction_set},
                    {"hash_every", info_.hash_every}};
-  for (const init::GradualStart& s : info_.contact_ramps) j["settings"]["contact_ramp"][std::to_string(s.interface_id)] = s.duration;
   j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
   j["model"]["fingerprint"] = fingerprint_text(info_.model_fingerprint);
   j["findings"] = findings_json(info_.findings);

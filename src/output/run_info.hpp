@@ -33,8 +33,7 @@ struct RunInfo {
   std::string instruction_set;  ///< "sse2", "avx2", "avx512"
   int threads = 1;
   std::string profile = "standard";
-  std::string interface_law;  ///< "stiffening", "constant"; empty: the profile's
-  std::vector<init::GradualStart> contact_ramps;
+  std::vector<std::string> interfaces;  ///< choices for interfaces, "ID:KEY=VALUE,..."
   int hash_every = 0;                   ///< 0: no state hash
   std::optional<ResumedFrom> resumed;   ///< its files go on, too
   std::uint64_t model_fingerprint = 0;  ///< of the Starter deck's text

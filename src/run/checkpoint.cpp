@@ -45,22 +45,13 @@ void run::CheckpointInfo::persist(state::Archive& a) {
     a(engine_fingerprint);
     a(run);
     for (bool* flag : {&reference, &orient, &allow_findings}) a(*flag);
-    a(law);
-    a.growing(started);
-    a.growing(start_durations);
-    if (started.size() != start_durations.size()) throw state::ArchiveError("the checkpoint is damaged");
+    a.each_growing(interfaces, [&a](std::string& text) { a(text); });
     a(hash_every);
     a(checkpoint_every);
     a(cycle);
     a(time);
     a(hash);
   });
-}
-
-std::vector<GradualStart> run::starts_of(const CheckpointInfo& info) {
-  std::vector<GradualStart> starts;
-  for (std::size_t k = 0; k < info.started.size(); ++k) starts.push_back({info.started[k], info.start_durations[k]});
-  return starts;
 }
 
 run::Checkpoint::Checkpoint(const std::filesystem::path& path) : file(output::read_bytes(path)) {
@@ -90,11 +81,7 @@ run::CheckpointInfo Run::Impl::checkpoint_info() {
   i.reference = settings.choices.rules == Rules::reference;
   i.orient = m.options.orient;
   i.allow_findings = settings.allow_findings;
-  i.law = info.interface_law;
-  for (const GradualStart& start : settings.choices.gradual_starts) {
-    i.started.push_back(start.interface_id);
-    i.start_durations.push_back(start.duration);
-  }
+  i.interfaces = info.interfaces;
   i.hash_every = settings.hash_every;
   i.checkpoint_every = settings.checkpoint_every;
   i.cycle = cycle->state().times.cycle;
@@ -171,13 +158,10 @@ Run Run::load(const Model& model, const std::filesystem::path& checkpoint, const
   try {
     run::Checkpoint from(checkpoint);
     if (from.info.fingerprint != model.fingerprint()) refuse(checkpoint, fmt::format("it is of another model ('{}')", from.info.name));
-    const auto same = [](const GradualStart& a, const GradualStart& b) {
-      return a.interface_id == b.interface_id && a.duration == b.duration;
-    };
-    const std::vector<GradualStart> starts = run::starts_of(from.info);
-    if (from.info.reference != (settings.choices.rules == Rules::reference) || from.info.law != run::law_name(settings.choices) ||
-        !std::ranges::equal(starts, settings.choices.gradual_starts, same)) {
-      refuse(checkpoint, "it was written with another rule set, contact law or gradual start");
+    const auto same = [](const std::string& a, const InterfaceChoice& b) { return a == to_string(b); };
+    if (from.info.reference != (settings.choices.rules == Rules::reference) ||
+        !std::ranges::equal(from.info.interfaces, settings.choices.interfaces, same)) {
+      refuse(checkpoint, "it was written with another rule set or other settings of interfaces");
     }
     return Run(std::make_unique<Impl>(model, settings, &from, false));
   } catch (const state::ArchiveError& error) { refuse(checkpoint, error.what()); }
@@ -249,8 +233,7 @@ Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted
     RunSettings settings;
     settings.threads = wanted.threads;
     settings.choices.rules = info.reference ? Rules::reference : Rules::standard;
-    settings.choices.interface_law = run::law_of(info.law);
-    settings.choices.gradual_starts = run::starts_of(info);
+    for (const std::string& text : info.interfaces) settings.choices.interfaces.push_back(interface_choice(text));
     settings.output = candidates.folder;
     settings.checkpoint_every = wanted.checkpoint_every >= 0 ? wanted.checkpoint_every : info.checkpoint_every;
     settings.hash_every = info.hash_every;

@@ -35,8 +35,11 @@ class FirstCycle final : public cycle::Sink {
 }  // namespace
 
 Inspection Model::inspect(const Choices& choices, bool with_step) const {
-  const model::Model& model = impl_->model;
-  run::check_starts(model, choices);
+  run::check_choices(impl_->model, choices);
+  return run::inspect(run::projected(*this, choices).impl().model, choices, with_step);
+}
+
+Inspection run::inspect(const model::Model& model, const Choices& choices, bool with_step) {
   const cycle::RunOptions options = run::options_of(choices, 1);
   Inspection out;
   out.part_mass.assign(model.parts.size(), 0.0);
@@ -46,7 +49,7 @@ Inspection Model::inspect(const Choices& choices, bool with_step) const {
     bare.interfaces = false;
     cycle::Cycle(model, bare).advance(first);
   }
-  out.contact = init::inspect_contacts(model, {first.x, first.v, first.mass, first.step});
+  out.contact = init::inspect_contacts(model, {first.x, first.v, first.mass, first.step}, choices.interfaces);
   const auto is_error = [](const ContactFinding& c) { return c.finding.severity == contact::Severity::error; };
   // Interfaces with errors may refuse to be built.
   if (with_step && std::none_of(out.contact.begin(), out.contact.end(), is_error)) {

@@ -175,17 +175,6 @@ ElementTable Model::elements(ElementKind kind) const {
 
 Profile run::profile_of(Rules rules) { return rules == Rules::reference ? Profile::reference() : Profile::standard(); }
 
-std::string run::law_name(const Choices& choices) {
-  if (!choices.interface_law) return {};
-  return *choices.interface_law == contact::Law::constant ? "constant" : "stiffening";
-}
-
-std::optional<contact::Law> run::law_of(std::string_view name) {
-  if (name.empty()) return std::nullopt;
-  if (name != "constant" && name != "stiffening") throw state::ArchiveError("the checkpoint is damaged (contact law)");
-  return name == "constant" ? contact::Law::constant : contact::Law::stiffening;
-}
-
 const model::Interface& run::interface_of(const model::Model& model, Id id, std::string_view choice) {
   for (const model::Interface& i : model.interfaces) {
     if (i.id == id) return i;
@@ -193,21 +182,49 @@ const model::Interface& run::interface_of(const model::Model& model, Id id, std:
   throw RunError(fmt::format("{} of interface {}: the deck has no such interface", choice, id));
 }
 
-void run::check_starts(const model::Model& model, const Choices& choices) {
-  for (const GradualStart& start : choices.gradual_starts) {
-    if (std::holds_alternative<model::InterfaceType7>(interface_of(model, start.interface_id, "gradual start").type)) {
-      throw RunError(fmt::format("gradual start of interface {}: it is of TYPE7, which has Inacti 5 and 6 for initial penetrations",
-                                 start.interface_id));
+void run::check_choices(const model::Model& model, const Choices& choices) {
+  for (const InterfaceChoice& c : choices.interfaces) {
+    const std::string name = "the choice '" + to_string(c) + "'";
+    if (c.interface_id != 0 && std::holds_alternative<model::InterfaceType7>(interface_of(model, c.interface_id, name).type)) {
+      throw RunError(name + ": it is of TYPE7, whose card has all its settings (Gapmin, Igap, Inacti, VIS_s)");
     }
-    if (!(start.duration >= 0.0)) throw RunError(fmt::format("gradual start of interface {}: the time is negative", start.interface_id));
+    if (c.damping && !(*c.damping >= 0.0 && *c.damping <= 1.0)) throw RunError(name + ": damping is a fraction of critical, 0 to 1");
+    if (c.depth_limit && !(*c.depth_limit > 0.0 && std::isfinite(*c.depth_limit))) throw RunError(name + ": depth is a length > 0");
+    if (c.start_duration && !(*c.start_duration >= 0.0 && std::isfinite(*c.start_duration))) {
+      throw RunError(name + ": start is a time >= 0");
+    }
   }
+  for (const model::Interface& i : model.interfaces) {
+    const InterfaceChoice c = init::choice_of(choices.interfaces, i.id);
+    const std::string name = fmt::format("the choices for interface {}", i.id);
+    if (c.automatic_gap.value_or(false) && choices.rules == Rules::reference) {
+      throw RunError(name + ": gap=auto needs the closest points of the standard rule set");
+    }
+    const contact::Initial initial = c.initial.value_or(contact::Initial::keep);
+    if (c.start_duration.value_or(0.0) > 0.0 && (initial == contact::Initial::project || initial == contact::Initial::ignore)) {
+      throw RunError(name + ": a gradual start pushes initial penetrations out; it cannot be had with initial=project or ignore");
+    }
+  }
+}
+
+Model run::projected(const Model& model, const Choices& choices) {
+  const auto moves = [&](const model::Interface& i) {
+    return init::choice_of(choices.interfaces, i.id).initial == contact::Initial::project;
+  };
+  const std::vector<model::Interface>& interfaces = model.impl().model.interfaces;
+  if (std::none_of(interfaces.begin(), interfaces.end(), moves)) return model;
+  auto moved = std::make_shared<Model::Impl>(model.impl());
+  Diagnostics findings;
+  init::project_initial_penetrations(moved->model, choices.interfaces, findings);
+  for (const Diagnostic& d : findings.all()) moved->findings.push_back(d);
+  return Model::of(std::move(moved));
 }
 
 cycle::RunOptions run::options_of(const Choices& choices, int threads) {
   cycle::RunOptions options;
   options.threads = threads;
   options.profile = profile_of(choices.rules);
-  options.contacts = {choices.interface_law, choices.gradual_starts};
+  options.contacts = choices.interfaces;
   return options;
 }
 

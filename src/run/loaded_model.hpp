@@ -33,13 +33,14 @@ struct Model::Impl {
 namespace run {
 
 [[nodiscard]] Profile profile_of(Rules rules);
-/// "", "stiffening" or "constant", and back. @throws state::ArchiveError for another word
-[[nodiscard]] std::string law_name(const Choices& choices);
-[[nodiscard]] std::optional<contact::Law> law_of(std::string_view name);
 /// The interface of a choice that names one. @throws RunError naming the choice when the model has no such interface
 [[nodiscard]] const model::Interface& interface_of(const model::Model& model, Id id, std::string_view choice);
-/// @throws RunError when a gradual start is of an interface that is not there or cannot have one
-void check_starts(const model::Model& model, const Choices& choices);
+/// @throws RunError when a choice is of an interface that is not there or cannot have it, or out of range
+void check_choices(const model::Model& model, const Choices& choices);
+/// The model with nodes moved out of initial penetrations where a choice is initial=project; the same model where none is.
+[[nodiscard]] Model projected(const Model& model, const Choices& choices);
+/// Model::inspect() of a model whose nodes are where the choices want them.
+[[nodiscard]] Inspection inspect(const model::Model& model, const Choices& choices, bool with_step);
 /// Options of the mechanics for these choices.
 [[nodiscard]] cycle::RunOptions options_of(const Choices& choices, int threads);
 

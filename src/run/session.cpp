@@ -46,8 +46,8 @@ output::RunInfo run::program_info() {
 
 namespace {
 
-void check_choices(const Model& model, const RunSettings& settings) {
-  run::check_starts(model.impl().model, settings.choices);
+void check_settings(const Model& model, const RunSettings& settings) {
+  run::check_choices(model.impl().model, settings.choices);
   std::set<Id> recorded;
   for (const ContactRecording& r : settings.recordings) {
     (void)run::interface_of(model.impl().model, r.interface_id, "recording");
@@ -63,10 +63,11 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
     : model(model_), settings(settings_) {
   if (settings.checkpoint_every <= 0) settings.checkpoint_every = model.impl().model.controls.restart_every;
   if (settings.threads <= 0) settings.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  check_choices(model, settings);
+  check_settings(model, settings);
+  model = run::projected(model, settings.choices);
   before.push_back({"read", model.impl().read_seconds});
   auto phase = Clock::now();
-  inspection = model.inspect(settings.choices);
+  inspection = run::inspect(model.impl().model, settings.choices, false);
   before.push_back({"inspect", seconds_since(phase)});
 
   Diagnostics findings;
@@ -77,8 +78,7 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
   info = run::program_info();
   info.threads = settings.threads;
   info.profile = settings.choices.rules == Rules::reference ? "reference" : "standard";
-  info.interface_law = run::law_name(settings.choices);
-  info.contact_ramps = settings.choices.gradual_starts;
+  for (const InterfaceChoice& choice : settings.choices.interfaces) info.interfaces.push_back(to_string(choice));
   info.hash_every = settings.hash_every;
   info.model_fingerprint = model.fingerprint();
   info.decks.assign(model.files().begin(), model.files().end());

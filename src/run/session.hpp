@@ -29,9 +29,7 @@ struct CheckpointInfo {
   std::uint64_t fingerprint = 0, engine_fingerprint = 0;
   std::int32_t run = 1;
   bool reference = false, orient = false, allow_findings = false;
-  std::string law;
-  std::vector<Id> started;  ///< interfaces with a gradual start
-  std::vector<double> start_durations;
+  std::vector<std::string> interfaces;  ///< choices, to_string(InterfaceChoice)
   std::int32_t hash_every = 0, checkpoint_every = 0;
   std::int64_t cycle = 0;
   double time = 0.0;
@@ -39,8 +37,6 @@ struct CheckpointInfo {
 
   void persist(state::Archive& a);
 };
-
-[[nodiscard]] std::vector<GradualStart> starts_of(const CheckpointInfo& info);
 
 /// A checkpoint in memory: whole by its checksum, its first part read.
 struct Checkpoint {

@@ -119,14 +119,14 @@ def complete(abut, deck, name, folder):
 
 
 def recorded(abut, folder):
-    """--record-contact and --contact-ramp on a deck whose plates start within the gap; abut replay gives the same bits."""
+    """--record-contact and --interface on a deck whose plates start within the gap; abut replay gives the same bits."""
     decks = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "decks", "findings")
     deck = os.path.join(decks, "initial_penetration", "initial_penetration_0000.rad")
     output = os.path.join(folder, "recorded")
-    result = call(abut, "run", deck, "-o", output, "--quiet", "--contact-ramp", "1:5e-6", "--record-contact", "1")
+    result = call(abut, "run", deck, "-o", output, "--quiet", "--interface", "1:start=5e-6", "--record-contact", "1")
     expect(result.returncode == 0, "a recorded run ends with 0", result)
     with open(os.path.join(output, "run.json")) as file:
-        expect(json.load(file)["settings"]["contact_ramp"] == {"1": 5e-06}, "run.json names the gradual start")
+        expect(json.load(file)["settings"]["interfaces"] == ["1:start=5e-06"], "run.json names the choice")
     log = os.path.join(output, "initial_penetration_contact_1.calls")
     result = call(abut, "replay", log, "--steps")
     expect(result.returncode == 0 and "every bit as recorded" in result.stdout and "interface 1" in result.stdout, "replay agrees", result)
@@ -137,7 +137,11 @@ def recorded(abut, folder):
             file.write(content)
         result = call(abut, "replay", log)
         expect(result.returncode == 1 and "contact log: record" in result.stderr, f"a log that is {name} is refused", result)
-    for option, value, why in (("--contact-ramp", "7:1", "no such interface"), ("--contact-ramp", "1", "expected an interface id"),
+    for option, value, why in (("--interface", "7:start=1", "no such interface"), ("--interface", "1", "expected KEY=VALUE"),
+                               ("--interface", "1:law=soft", "expected one of stiffening"), ("--interface", "1:damping=2", "fraction of critical"),
+                               ("--interface", "1:depth=0", "a length > 0"), ("--interface", "one:gap=auto", "neither an interface id"),
+                               ("--interface", "1:initial=project,start=1", "cannot be had with"), ("--interface", "1:speed=1", "no setting"),
+                               ("--interface", "1:gap=auto,gap=card", "twice"),
                                ("--record-contact", "1:2:3:4", "expected an interface id"), ("--record-contact", "x", "not a number")):
         result = call(abut, "run", deck, "-o", output, option, value)
         expect(result.returncode == 1 and why in result.stderr, f"{option} {value} is refused: {why}", result)

@@ -5,6 +5,7 @@ usage: check_findings.py ABUT FOLDER
 
 Standard library only. Exit status 0 when all holds.
 """
+import csv
 import json
 import os
 import subprocess
@@ -115,6 +116,15 @@ def main():
                     where = said[code].get("nodes", []) + said[code].get("segments", [])
                     expect(where and (len(where) == said[code]["measure"] or code not in ("contact.crossed", "contact.lost_over_border")),
                            f"{code} names whom it concerns: {said[code]}")
+        # The same against time: the plate's surface faces the other one until it has turned over, the other one's always does.
+        for name, turns in (("turned_away", True), ("sound", False)):
+            with open(os.path.join(work, "r" + name, name + "_th.csv")) as file:
+                rows = list(csv.DictReader(file))
+            first, second = ([float(row["INTER/1/" + column]) for row in rows] for column in ("FACE1", "FACE2"))
+            expect(first[0] == 1.0 and second[0] == 1.0 and min(first) == 1.0, f"{name}: surfaces face each other at the start")
+            expect((second[-1] < 0.5) == turns and (min(second) == 1.0) != turns, f"{name}: surface 2 faces by {second[-1]} at the end")
+            if turns:
+                expect(max(float(row["INTER/1/APPR"]) for row in rows) > 0.0, f"{name}: nodes approach in units of the gap")
     print(f"{len(BEFORE) + len(REFUSED) + 1 + len(DURING)} findings, {len(failures)} failures")
     return 1 if failures else 0
 

@@ -6,9 +6,11 @@ usage: run_deck.py MODE NAME --abut PROGRAM [--threads N] [--keep DIR] [--tolera
 MODE
   reference   profile `reference`, compared with NAME_ref.csv and NAME_noise.csv (compare.py); --strict: without the noise
   energy      profile `standard`: the discrete ledger and the energy balance stay within their limits
+  contact     the same, and what the interfaces make or lose stays within its limits: for decks of the project's own
 
-Limits of `energy`, as fractions of the largest energy term so far: |GLOBAL/LEDGER| <= 0.002 always; |GLOBAL/ERR| <= 0.01
-while no interface is in contact and <= 0.02 while one is.
+Limits, as fractions of the largest energy term so far: |GLOBAL/LEDGER| <= 0.002 always; |GLOBAL/ERR| <= 0.01
+while no interface is in contact and <= 0.02 while one is; `contact`: |GLOBAL/CX| <= 0.01, and <= 0.002
+behind the last row in which one is in contact.
 
 The decks are those of examples/decks and of the folder ABUT_DECKS (default ../shared/decks beside the source tree).
 Exit status 0 passed, 1 failed, 77 the deck is not there (CTest: skipped). Standard library only.
@@ -29,6 +31,9 @@ SKIPPED = 77
 LEDGER_LIMIT = 0.002
 ERROR_LIMIT = 0.01
 ERROR_LIMIT_IN_CONTACT = 0.02
+MADE_LIMIT = 0.002
+MADE_LIMIT_IN_CONTACT = 0.01
+TERMS = ("IE", "HE", "KE", "KER", "CE", "FW", "DW", "EXTW")
 
 
 def run(program, name, profile, out, threads):
@@ -58,7 +63,16 @@ def worst(values, rows):
     return (0.0, None) if chosen is None else (abs(values[chosen]), chosen)
 
 
-def energy(history):
+def made_share(history):
+    """GLOBAL/CX over the largest energy term so far, per row; 0 before there is energy."""
+    shares, largest = [], 0.0
+    for row, made in enumerate(history.column["GLOBAL/CX"]):
+        largest = max([largest] + [abs(history.column[f"GLOBAL/{term}"][row]) for term in TERMS])
+        shares.append(made / largest if largest > 0.0 else 0.0)
+    return shares
+
+
+def energy(history, with_made=False):
     """[(what, worst value, time, limit, passed)]"""
     for name in ("GLOBAL/LEDGER", "GLOBAL/ERR"):
         if name not in history.column:
@@ -66,18 +80,23 @@ def energy(history):
     contact = in_contact(history)
     rows = range(len(contact))
     cases = [
-        ("LEDGER", "GLOBAL/LEDGER", list(rows), LEDGER_LIMIT),
-        ("ERR outside contact", "GLOBAL/ERR", [row for row in rows if not contact[row]], ERROR_LIMIT),
-        ("ERR during contact", "GLOBAL/ERR", [row for row in rows if contact[row]], ERROR_LIMIT_IN_CONTACT),
+        ("LEDGER", history.column["GLOBAL/LEDGER"], list(rows), LEDGER_LIMIT),
+        ("ERR outside contact", history.column["GLOBAL/ERR"], [row for row in rows if not contact[row]], ERROR_LIMIT),
+        ("ERR during contact", history.column["GLOBAL/ERR"], [row for row in rows if contact[row]], ERROR_LIMIT_IN_CONTACT),
     ]
-    for what, column, chosen, limit in cases:
-        value, row = worst(history.column[column], chosen)
+    if with_made:
+        made = made_share(history)
+        parted = max((row for row in rows if contact[row]), default=-1) + 1
+        cases += [("CX up to separation", made, list(rows[:parted]), MADE_LIMIT_IN_CONTACT),
+                  ("CX after separation", made, list(rows[parted:]), MADE_LIMIT)]
+    for what, values, chosen, limit in cases:
+        value, row = worst(values, chosen)
         yield what, value, (history.time[row] if row is not None else math.nan), limit, value <= limit
 
 
-def check_energy(history):
+def check_energy(history, with_made):
     passed = True
-    for what, value, time, limit, good in energy(history):
+    for what, value, time, limit, good in energy(history, with_made):
         print(f"{what:<22}{value:>12.3e} at {time:<12.5g} limit {limit:g}{'' if good else '  outside'}")
         passed = passed and good
     if len(history.time) < 2:
@@ -95,7 +114,7 @@ def check_reference(history, folder, name, tolerance, strict):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("mode", choices=["reference", "energy"])
+    parser.add_argument("mode", choices=["reference", "energy", "contact"])
     parser.add_argument("name")
     parser.add_argument("--abut", required=True)
     parser.add_argument("--threads", type=int, default=1)
@@ -119,8 +138,8 @@ def main():
             out = args.keep or temporary
             os.makedirs(out, exist_ok=True)
             history = run(args.abut, args.name, "reference" if args.mode == "reference" else "standard", out, args.threads)
-        if args.mode == "energy":
-            return check_energy(history)
+        if args.mode != "reference":
+            return check_energy(history, args.mode == "contact")
         return check_reference(history, folder, args.name, args.tolerance, args.strict)
     except (RuntimeError, ValueError, OSError) as error:
         print(error)

@@ -318,7 +318,7 @@ def members_of(struct, header):
     return names
 
 
-CHANGED = {"stiffness_scale": 0.7, "friction": 0.25, "tangential_ratio": 0.3, "gap": 0.6, "birth": 0.5, "death": 2.0, "start_duration": 0.1,
+CHANGED = {"stiffness_scale": 0.7, "friction": 0.25, "tangential_ratio": 0.3, "gap": 0.6, "automatic_gap": True, "birth": 0.5, "death": 2.0, "start_duration": 0.1,
            "shear_limit": 7.0, "damping": 0.35, "initial": "offset", "depth_limit": 0.9, "node_gap": [0.1, 0.2], "facet_gap": [0.3],
            "gap_max": 5.0, "node_size": [1.0, 2.0], "facet_size": [3.0], "stiffness": "series", "stiffness_min": 1.0, "stiffness_max": 9.0,
            "friction_form": "incremental", "friction_viscosity": 0.4, "largest_penetration": 0.8, "step_minimum": 1e-6, "step_scale": 0.5,

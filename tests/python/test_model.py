@@ -94,7 +94,7 @@ def test_reversed_normals_are_found_and_turned():
 @pytest.mark.parametrize("call, words", [
     (lambda m: m.elements("beam"), "kind is 'beam', expected one of 'shell4'"),
     (lambda m: m.inspect(rules="mine"), "rules is 'mine', expected one of 'standard', 'reference'"),
-    (lambda m: m.inspect(interface_law="soft"), "interface_law is 'soft'"),
+    (lambda m: m.inspect(rules="soft"), "rules is 'soft'"),
 ])
 def test_words_that_are_none(plates, call, words):
     with pytest.raises(ValueError, match=words):

@@ -234,7 +234,7 @@ def test_a_gradual_start_pushes_an_overlap_apart_over_its_time():
         run.advance_to_end()
         return run
 
-    at_once, gradual = overlap(), overlap(gradual_starts={1: 0.015})
+    at_once, gradual = overlap(), overlap(interfaces={1: "start=0.015"})
     assert at_once.interfaces[0].sw == 0.0 and gradual.interfaces[0].sw > 0.0
     assert gradual.velocities[8:, 2].mean() < 0.7 * at_once.velocities[8:, 2].mean()
 
@@ -351,7 +351,9 @@ def test_recorded_contact_is_replayed(tmp_path):
 @pytest.mark.parametrize("arguments, words", [
     (dict(record_contact={1: None}), "record_contact needs an output folder"),
     (dict(record_contact={9: None}, output=True), "9"),
-    (dict(gradual_starts={9: 1.0}), "9"),
+    (dict(interfaces={9: "start=1"}), "9"),
+    (dict(interfaces={1: "law=soft"}), "law is 'soft', expected one of stiffening, constant"),
+    (dict(interfaces={"some": "law=constant"}), "neither an interface id nor 'all'"),
 ])
 def test_interfaces_that_are_not_there(tmp_path, arguments, words):
     if "output" in arguments:
@@ -360,12 +362,25 @@ def test_interfaces_that_are_not_there(tmp_path, arguments, words):
         abut.Run(two_blocks().build(), **arguments)
 
 
-def test_the_inspection_knows_of_gradual_starts():
+def test_settings_of_an_interface_reach_it(tmp_path):
+    """Damping shows as DW; `all` is overruled by a choice that names the interface; run.json keeps what was set."""
+    model = two_blocks().build()
+    plain, damped = abut.Run(model, threads=1), abut.Run(model, threads=1, interfaces={"all": "damping=0.5"}, output=tmp_path / "damped")
+    none = abut.Run(model, threads=1, interfaces={"all": "damping=0.5", 1: "damping=0"})
+    for run in (plain, damped, none):
+        run.advance_to_end()
+    assert plain.interfaces[0].dw == 0.0 and damped.interfaces[0].dw > 0.0 and none.state_hash == plain.state_hash
+    assert json.loads(next((tmp_path / "damped").glob("run.json")).read_text())["settings"]["interfaces"] == ["all:damping=0.5"]
+    # The surfaces are the whole hulls of two cubes: the faces that meet, and those that look away from the other cube.
+    assert plain.interfaces[0].facing == pytest.approx([0.5, 0.5]) and plain.interfaces[0].peak_approach >= plain.interfaces[0].largest_approach
+
+
+def test_the_inspection_knows_of_choices():
     """The first step is that of the choices; an interface that is not there is refused as by a run."""
     model = two_blocks().build()
-    assert model.inspect(gradual_starts={1: 0.01}, with_step=True).first_step > 0
+    assert model.inspect(interfaces={1: "start=0.01"}, with_step=True).first_step > 0
     with pytest.raises((ValueError, RuntimeError), match="9"):
-        model.inspect(gradual_starts={9: 0.01}, with_step=True)
+        model.inspect(interfaces={9: "start=0.01"}, with_step=True)
 
 
 def test_nothing_leaks():

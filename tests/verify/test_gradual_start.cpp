@@ -35,7 +35,12 @@ Pressed press(double duration, double end) {
   s.contact(s.surface(lower, 2, true), s.surface(upper, 2, false), 0.2);
   s.end(end);
   abut::cycle::RunOptions options;
-  if (duration > 0.0) options.contacts.starts.push_back({s.model.interfaces[0].id, duration});
+  if (duration > 0.0) {
+    abut::InterfaceChoice choice;
+    choice.interface_id = s.model.interfaces[0].id;
+    choice.start_duration = duration;
+    options.contacts.push_back(choice);
+  }
   Pressed out;
   (void)abut::cycle::run(s.model, options, out.recorder);
   for (const auto& sample : out.recorder.samples) {

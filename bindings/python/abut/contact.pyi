@@ -42,7 +42,7 @@ class Rules:
 
 class Options:
     def __init__(self, *, stiffness_scale: float = 0.2, friction: float = 0.0, friction_law: FrictionLaw = ..., filter: FrictionFilter = ...,
-                 tangential_ratio: float = 0.1, gap: float = 0.0, birth: float = 0.0, death: float = 1e30,
+                 tangential_ratio: float = 0.1, gap: float = 0.0, automatic_gap: bool = False, birth: float = 0.0, death: float = 1e30,
                  start_duration: float = 0.0, shear_limit: float = 1e30, damping: float = 0.0, initial: Initial = "keep",
                  depth_limit: float = 0.0, rules: Rules = ...) -> None: ...
     stiffness_scale: float
@@ -51,6 +51,7 @@ class Options:
     filter: FrictionFilter
     tangential_ratio: float
     gap: float
+    automatic_gap: bool
     birth: float
     death: float
     start_duration: float

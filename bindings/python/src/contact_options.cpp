@@ -95,7 +95,7 @@ void bind_rules(py::module_& m) {
 }
 
 Options one_sided(double stiffness_scale, double friction, const FrictionLaw& law, const FrictionFilter& filter, double tangential_ratio,
-                  double gap, double birth, double death, double start_duration, double shear_limit, double damping,
+                  double gap, bool automatic_gap, double birth, double death, double start_duration, double shear_limit, double damping,
                   const std::string& initial, double depth_limit, const Rules& rules) {
   check(stiffness_scale > 0.0, "stiffness_scale", "positive");
   check(friction >= 0.0, "friction", "0 or more");
@@ -113,6 +113,7 @@ Options one_sided(double stiffness_scale, double friction, const FrictionLaw& la
   o.filter = filter;
   o.tangential_ratio = tangential_ratio;
   o.gap = gap;
+  o.automatic_gap = automatic_gap;
   o.birth = birth;
   o.death = death;
   o.start_duration = start_duration;
@@ -127,15 +128,18 @@ Options one_sided(double stiffness_scale, double friction, const FrictionLaw& la
 void bind_one_sided(py::module_& m) {
   py::class_<Options> options(m, "Options", "Options of a one-sided interface: two surfaces (TYPE3) or nodes on a surface (TYPE5).");
   options.def(py::init(&one_sided), py::kw_only(), "stiffness_scale"_a = 0.2, "friction"_a = 0.0, "friction_law"_a = FrictionLaw{},
-              "filter"_a = FrictionFilter{}, "tangential_ratio"_a = 0.1, "gap"_a = 0.0, "birth"_a = 0.0, "death"_a = 1e30,
-              "start_duration"_a = 0.0, "shear_limit"_a = 1e30, "damping"_a = 0.0, "initial"_a = "keep", "depth_limit"_a = 0.0,
-              "rules"_a = Rules{}, "Every option is a property too, described there. Raises ValueError for a value out of its range.");
+              "filter"_a = FrictionFilter{}, "tangential_ratio"_a = 0.1, "gap"_a = 0.0, "automatic_gap"_a = false, "birth"_a = 0.0,
+              "death"_a = 1e30, "start_duration"_a = 0.0, "shear_limit"_a = 1e30, "damping"_a = 0.0, "initial"_a = "keep",
+              "depth_limit"_a = 0.0, "rules"_a = Rules{},
+              "Every option is a property too, described there. Raises ValueError for a value out of its range.");
   options.def_readwrite("stiffness_scale", &Options::stiffness_scale, "s of K = s K1 K2/(K1 + K2), > 0")
       .def_readwrite("friction", &Options::friction, "Coulomb coefficient, >= 0")
       .def_readwrite("friction_law", &Options::friction_law, "how the coefficient depends on pressure and speed")
       .def_readwrite("filter", &Options::filter, "of the trial friction force")
       .def_readwrite("tangential_ratio", &Options::tangential_ratio, "tangential over normal stiffness, > 0")
       .def_readwrite("gap", &Options::gap, "length at which a surface starts to repel, >= 0")
+      .def_readwrite("automatic_gap", &Options::automatic_gap,
+                     "gap of a pair from thickness (set_surface): half of the node's and half of the facet's, at least `gap`")
       .def_readwrite("birth", &Options::birth, "time from which the interface acts")
       .def_readwrite("death", &Options::death, "time after which it does not")
       .def_readwrite("start_duration", &Options::start_duration, "time over which what overlaps at birth is pushed apart; 0: at once")

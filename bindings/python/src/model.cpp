@@ -43,9 +43,8 @@ py::array node_indices(const Model& m, const ArrayLike& wanted) {
   return copy(std::span<const Index>(found));
 }
 
-Inspection inspect(const Model& m, const std::string& rules, const std::optional<std::string>& interface_law,
-                   const Durations& gradual_starts, bool with_step) {
-  const Choices choices = choices_of(rules, interface_law, gradual_starts);
+Inspection inspect(const Model& m, const std::string& rules, const InterfaceSettings& interfaces, bool with_step) {
+  const Choices choices = choices_of(rules, interfaces);
   const py::gil_scoped_release free;
   return m.inspect(choices, with_step);
 }
@@ -205,11 +204,9 @@ void bind_model(py::module_& m) {
       .def_property_readonly(
           "interfaces", [](const Model& model) { return std::vector<InterfaceInfo>(model.interfaces().begin(), model.interfaces().end()); },
           "by id")
-      .def("inspect", &inspect, py::kw_only(), "rules"_a = "standard", "interface_law"_a = py::none(), "gradual_starts"_a = Durations{},
-           "with_step"_a = false,
+      .def("inspect", &inspect, py::kw_only(), "rules"_a = "standard", "interfaces"_a = InterfaceSettings{}, "with_step"_a = false,
            "Looks at the contacts with the masses, velocities and step of the first cycle.\n\n"
-           "rules: 'standard' or 'reference'; interface_law: 'stiffening', 'constant' or None for the rule set's;\n"
-           "gradual_starts: as of Run(); with_step: the first time step too.")
+           "rules: 'standard' or 'reference'; interfaces: as of Run(); with_step: the first time step too.")
       .def("__repr__", [](const Model& model) {
         return "<model '" + model.name() + "': " + std::to_string(model.node_ids().size()) + " nodes, " +
                std::to_string(model.element_count()) + " elements, " + std::to_string(model.interfaces().size()) + " interfaces>";

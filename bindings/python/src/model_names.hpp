@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "abut/model.hpp"
 #include "abut/results.hpp"
@@ -29,14 +30,16 @@ inline constexpr Names<StepController::Kind, 9> controller_kinds{{{"none", StepC
                                                                   {"fixed", StepController::Kind::fixed},
                                                                   {"contact_node", StepController::Kind::contact_node}}};
 
-/// Interface id to the time over which its initial penetrations are pushed out.
-using Durations = std::map<Id, double>;
+/// Interface id or "all" to its settings "KEY=VALUE,..." (interface_choice()).
+using InterfaceSettings = std::map<std::variant<Id, std::string>, std::string>;
 
-inline Choices choices_of(const std::string& rules, const std::optional<std::string>& interface_law, const Durations& gradual_starts) {
+inline Choices choices_of(const std::string& rules, const InterfaceSettings& interfaces) {
   Choices c;
   c.rules = named(rules, "rules", rule_sets);
-  if (interface_law) c.interface_law = named(*interface_law, "interface_law", laws);
-  for (const auto& [id, duration] : gradual_starts) c.gradual_starts.push_back({id, duration});
+  for (const auto& [key, settings] : interfaces) {
+    const Id* id = std::get_if<Id>(&key);
+    c.interfaces.push_back(interface_choice((id != nullptr ? std::to_string(*id) : std::get<std::string>(key)) + ":" + settings));
+  }
   return c;
 }
 

@@ -18,19 +18,18 @@ namespace {
 using namespace py::literals;
 using Path = std::filesystem::path;
 using OptionalPath = std::optional<Path>;
-using OptionalWord = std::optional<std::string>;
 /// Interface id to the times from and to which its inputs are kept; none: all.
 using Recordings = std::map<Id, std::optional<std::pair<double, double>>>;
 
-RunSettings settings_of(int threads, const std::string& rules, const OptionalWord& interface_law, const Durations& gradual_starts,
-                        const OptionalPath& output, int checkpoint_every, int hash_every, bool record_history, bool progress,
-                        bool allow_findings, const Recordings& record_contact) {
+RunSettings settings_of(int threads, const std::string& rules, const InterfaceSettings& interfaces, const OptionalPath& output,
+                        int checkpoint_every, int hash_every, bool record_history, bool progress, bool allow_findings,
+                        const Recordings& record_contact) {
   if (threads < 0) throw py::value_error("threads must be 0 (all) or more");
   if (hash_every < 0) throw py::value_error("hash_every must be 0 (never) or more");
   if (checkpoint_every < 0) throw py::value_error("checkpoint_every must be 0 (as the deck says) or more");
   RunSettings settings;
   settings.threads = threads;
-  settings.choices = choices_of(rules, interface_law, gradual_starts);
+  settings.choices = choices_of(rules, interfaces);
   settings.output = output.value_or(Path{});
   if (!record_contact.empty() && !output) throw py::value_error("record_contact needs an output folder");
   for (const auto& [id, times] : record_contact) {
@@ -58,20 +57,19 @@ std::unique_ptr<HeldRun> hold(Settings settings, const Make& make) {
   return held;
 }
 
-std::unique_ptr<HeldRun> make_run(const Model& model, int threads, const std::string& rules, const OptionalWord& interface_law,
-                                  const Durations& gradual_starts, const OptionalPath& output, int checkpoint_every, int hash_every,
-                                  bool record_history, bool progress, bool allow_findings, const Recordings& record_contact) {
-  return hold(settings_of(threads, rules, interface_law, gradual_starts, output, checkpoint_every, hash_every, record_history, progress,
-                          allow_findings, record_contact),
+std::unique_ptr<HeldRun> make_run(const Model& model, int threads, const std::string& rules, const InterfaceSettings& interfaces,
+                                  const OptionalPath& output, int checkpoint_every, int hash_every, bool record_history, bool progress,
+                                  bool allow_findings, const Recordings& record_contact) {
+  return hold(settings_of(threads, rules, interfaces, output, checkpoint_every, hash_every, record_history, progress, allow_findings,
+                          record_contact),
               [&](const RunSettings& settings) { return std::make_unique<Run>(model, settings); });
 }
 
 std::unique_ptr<HeldRun> load_run(const Model& model, const Path& checkpoint, int threads, const std::string& rules,
-                                  const OptionalWord& interface_law, const Durations& gradual_starts, const OptionalPath& output,
-                                  int checkpoint_every, int hash_every, bool record_history, bool progress, bool allow_findings,
-                                  const Recordings& record_contact) {
-  return hold(settings_of(threads, rules, interface_law, gradual_starts, output, checkpoint_every, hash_every, record_history, progress,
-                          allow_findings, record_contact),
+                                  const InterfaceSettings& interfaces, const OptionalPath& output, int checkpoint_every, int hash_every,
+                                  bool record_history, bool progress, bool allow_findings, const Recordings& record_contact) {
+  return hold(settings_of(threads, rules, interfaces, output, checkpoint_every, hash_every, record_history, progress, allow_findings,
+                          record_contact),
               [&](const RunSettings& settings) { return std::make_unique<Run>(Run::load(model, checkpoint, settings)); });
 }
 
@@ -93,21 +91,21 @@ void save_run(const HeldRun& self, const Path& checkpoint) { self.idle().save(ch
 }  // namespace
 
 void bind_making(RunClass& run) {
-  run.def(py::init(&make_run), "model"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard", "interface_law"_a = py::none(),
-          "gradual_starts"_a = Durations{}, "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0,
-          "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false, "record_contact"_a = Recordings{},
+  run.def(py::init(&make_run), "model"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard", "interfaces"_a = InterfaceSettings{},
+          "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0, "record_history"_a = true, "progress"_a = false,
+          "allow_findings"_a = false, "record_contact"_a = Recordings{},
           "Inspects the contacts, makes the first state, opens the files.\n\n"
-          "threads: 0 for all. rules: 'standard' or 'reference'. interface_law: 'stiffening', 'constant' or None for the rule set's.\n"
-          "gradual_starts: {interface id: time over which initial penetrations are pushed out}.\n"
+          "threads: 0 for all. rules: 'standard' or 'reference'.\n"
+          "interfaces: {id or 'all': 'KEY=VALUE,...'}, settings of interfaces of TYPE3 and TYPE5 as --interface takes them: law, gap,\n"
+          "initial, damping, depth, start.\n"
           "output: run folder; None: no files. checkpoint_every: cycles between checkpoints in it, 0: as /RFILE of the deck says.\n"
           "hash_every: cycles between state hashes in run.json. allow_findings: run although the inspection found errors.\n"
           "record_contact: {interface id: (from, to) or None} keeps all inputs of an interface between two times, or all the time, in\n"
           "NAME_contact_ID.calls in the run folder, for contact.replay().\n"
           "Raises InputError when it did, RunError when a file cannot be written.")
       .def_static("load", &load_run, "model"_a, "checkpoint"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard",
-                  "interface_law"_a = py::none(), "gradual_starts"_a = Durations{}, "output"_a = py::none(), "checkpoint_every"_a = 0,
-                  "hash_every"_a = 0, "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false,
-                  "record_contact"_a = Recordings{},
+                  "interfaces"_a = InterfaceSettings{}, "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0,
+                  "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false, "record_contact"_a = Recordings{},
                   "A run of `model` that begins in the state of a checkpoint of save(); arguments as of Run().\n\n"
                   "Raises RunError when the checkpoint is not one of this model and these choices.")
       .def_static(

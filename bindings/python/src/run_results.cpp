@@ -71,6 +71,15 @@ void bind_results(py::module_& m) {
           "deepest_node", [](const NamedResult& r) { return r.result.deepest_node; },
           "index of the node that has penetrated by that much; -1: none")
       .def_property_readonly(
+          "largest_approach", [](const NamedResult& r) { return r.result.largest_approach; },
+          "largest normal approach of a held node in the last step, in gaps; 0 without a gap and for TYPE7")
+      .def_property_readonly(
+          "peak_approach", [](const NamedResult& r) { return r.result.peak_approach; },
+          "the largest of them since the last row of the time history before this one")
+      .def_property_readonly(
+          "facing", [](const NamedResult& r) { return r.result.facing; },
+          "(first, second) share of the surface near the other one that faces it, when last looked at; nan: undecided, nodes, TYPE7")
+      .def_property_readonly(
           "crossed", [](const NamedResult& r) { return r.crossed.size(); },
           "number of nodes caught in the last cycle before they jumped through")
       .def_property_readonly(

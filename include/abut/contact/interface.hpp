@@ -35,7 +35,7 @@ using Executor = std::function<void(std::size_t count, const std::function<void(
 /// What changes about a surface: spans of #F values, copied when set.
 struct SurfaceState {
   std::span<const double> stiffness = {};     ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
-  std::span<const double> thickness = {};     ///< shell thickness per facet; empty: none
+  std::span<const double> thickness = {};     ///< shell thickness per facet, 0: of a solid; empty: none
   std::span<const std::uint8_t> active = {};  ///< 0: eroded facet; empty: all active
   /// #S in the order of Surface::nodes(): 0 is let go, others stay held with the stiffness of all their facets, eroded ones
   /// too. Empty: nodes are held by what is left of their facets.
@@ -55,7 +55,7 @@ struct HostState {
   /// host that leaves it 0 says that its step is constant.
   double dt_bar_old = 0.0;
   /// #N or empty: entry of `mobility` for nodes that are held or belong to a rigid body, no_index for those that move freely with
-  /// their `mass`. Effective masses of pairs of TYPE3 and TYPE5 are made with it. TYPE7 takes `mass` for its pairs as for its dampers.
+  /// their `mass`. Effective masses of pairs are made with it; the dampers of TYPE7 take `mass`.
   std::span<const Index> constrained = {};
   std::span<const Mobility> mobility = {};
 };
@@ -87,7 +87,7 @@ class Interface {
   Interface& operator=(Interface&&) noexcept;
 
   /// @param side 0 first, 1 second. Of nodes_to_surface and both_sides 1 is the surface and 0 the held nodes: stiffness and active
-  ///        are then #nodes (an inactive node is let go), thickness is not used.
+  ///        are then #nodes (an inactive node is let go), and so is thickness (automatic_gap).
   /// Spans that are empty leave what was set before. May be called at any time.
   /// @throws std::invalid_argument on a side that is neither 0 nor 1, a wrong length, a negative or non-finite stiffness or thickness
   void set_surface(int side, const SurfaceState& state);

@@ -63,8 +63,11 @@ struct Options {
   FrictionFilter filter;          ///< of the trial friction force
   double tangential_ratio = 0.1;  ///< K_t / K_n (T21); > 0
   double gap = 0.0;               ///< length (T25..T28); >= 0
-  double birth = 0.0;             ///< time from which the interface acts
-  double death = 1e30;            ///< time after which it does not
+  /// Gap of a pair from thickness: half of the held node's and half of the facet's at the contact point (SurfaceState::thickness: 0 for
+  /// solids; averaged at nodes, interpolated over facets), at least `gap`. With closest points only (Rules::edges).
+  bool automatic_gap = false;
+  double birth = 0.0;   ///< time from which the interface acts
+  double death = 1e30;  ///< time after which it does not
   /// Gradual start: what overlaps (or lies within the gap) at birth is pushed apart over this time, not at once. Each node's
   /// gap begins at what is there, as with Initial::offset, and grows to the full gap; 0: off. With `keep` and `offset` only.
   double start_duration = 0.0;

@@ -176,6 +176,24 @@ double BothSides::offset_of(const Pair& old, double gap, double p) const {
   return std::min(old.offset, 0.95 * old.offset + 0.05 * (p + margin));
 }
 
+void BothSides::gather_pressed() {
+  pressed_.assign(own_.size(), {});
+  for (Index node = 0; node < held_.node_count(); ++node) {
+    if (gone_[at(node)] != 0 || !held_.node_active(node)) continue;
+    for (const Index facet : facets_of(candidates_, node, scratch_)) {
+      const double k = pair_stiffness(node, facet);
+      if (k <= 0.0) continue;
+      const Met met = meet(held_, surface_, node, facet, pair_gap(node, facet));
+      if (met.contact.penetration <= 0.0) continue;
+      pressed_[at(held_own_[at(node)])].add(k, met.contact.normal);
+      const auto& corner = surface_.surface().local()[at(facet)];
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (met.contact.weight[i] != 0.0) { pressed_[at(surface_own_[at(corner[i])])].add(met.contact.weight[i] * k, met.contact.normal); }
+      }
+    }
+  }
+}
+
 StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   StepResult result;
   in_contact_.clear();
@@ -191,6 +209,7 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
     std::swap(pairs_, previous_);
     pairs_.clear();
     fastest_ = fastest(host);
+    if (options_.switch_correction) gather_pressed();
     longest_step_ = std::max(longest_step_, host.dt);
     std::size_t next = 0;
     for (Index node = 0; node < held_.node_count(); ++node) {
@@ -222,13 +241,14 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   if (!started_) initial_elastic_ = sums.elastic;
   friction_work_ += sums.friction_work;
   damping_work_ += sums.damping_work;
+  stepped_work_ += sums.stepped;
   contact_work_ += discrete_work(host);
   started_ = true;
   for (std::size_t i = 0; i < own_.size(); ++i) force[at(own_[i])] += normal_[i] + tangential_[i];
   result.elastic = sums.elastic;
   result.friction_work = friction_work_;
   result.damping_work = damping_work_;
-  result.made = contact_work_ + (sums.elastic - initial_elastic_) + friction_work_ + damping_work_;
+  result.made = contact_work_ + (sums.elastic - initial_elastic_) + friction_work_ + damping_work_ + stepped_work_;
   result.in_contact = static_cast<Index>(in_contact_.size());
   return result;
 }
@@ -293,6 +313,7 @@ void BothSides::save(HistoryWriter& out) const {
   out.put(damping_work_);
   out.put(longest_step_);
   out.put(contact_work_);
+  out.put(stepped_work_);
 }
 
 void BothSides::load(HistoryReader& in) {
@@ -308,6 +329,7 @@ void BothSides::load(HistoryReader& in) {
   in.get(damping_work_);
   in.get(longest_step_);
   in.get(contact_work_);
+  in.get(stepped_work_);
 }
 
 }  // namespace abut::contact

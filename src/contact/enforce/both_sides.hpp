@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "abut/contact/both_sides.hpp"
+#include "abut/contact/mobility.hpp"
 #include "contact/enforce/both_sides_pair.hpp"
 #include "contact/enforce/interface_model.hpp"
 #include "contact/search/candidates.hpp"
@@ -40,6 +41,7 @@ class BothSides final : public InterfaceModel {
     double spring = 0.0;        ///< tangential stiffness of the incremental form
     double rate = 0.0;          ///< normal speed, and
     double acceleration = 0.0;  ///< what the pair's own normal force gave it
+    double force = 0.0;         ///< normal force, with the damper's
     std::int64_t acts = 0;      ///< 1: p > 0 in the last cycle
   };
   struct Opening {
@@ -57,7 +59,7 @@ class BothSides final : public InterfaceModel {
   };
   /// Sums over the pairs of one cycle.
   struct Sums {
-    double elastic = 0.0, friction_work = 0.0, damping_work = 0.0;
+    double elastic = 0.0, friction_work = 0.0, damping_work = 0.0, stepped = 0.0;
   };
 
   [[nodiscard]] bool variable_gap() const { return !options_.node_gap.empty(); }
@@ -75,8 +77,10 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] double reach(Index node) const;
   [[nodiscard]] bool acts(const HostState& host) const { return host.time >= options_.birth && host.time <= options_.death; }
   [[nodiscard]] Opening opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const;
+  void gather_pressed();
   [[nodiscard]] Spring spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Opening& m,
                               const BothSidesForce& law) const;
+  [[nodiscard]] double stepped(const HostState& host, const Pair& old, double rate) const;
   [[nodiscard]] double lasting_tangent(double k0, double gap, double p, const Opening& m) const;
   bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                 Sums& sums);
@@ -95,6 +99,7 @@ class BothSides final : public InterfaceModel {
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
   std::vector<std::uint8_t> slips_;                            // #held: some friction of the node is at its limit (output only, no history)
+  std::vector<Mobility> pressed_;                              // #own: sum of k n n^T over the pairs that act; a corner's k is H k
   std::vector<Index> in_contact_, scratch_;
   std::vector<std::uint8_t> off_;          // #F: without stiffness for good (drop_facets)
   double widest_ = 0.0, narrowest_ = 0.0;  // largest gap of a facet; smallest gap of any pair
@@ -102,7 +107,7 @@ class BothSides final : public InterfaceModel {
   double fastest_ = 0.0;                   // bound of the speed of any node relative to any facet in this cycle
   bool started_ = false, stale_ = true;
   double initial_elastic_ = 0.0;
-  double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0;
+  double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0, stepped_work_ = 0.0;
 };
 
 }  // namespace abut::contact

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/enforce/account.hpp"
 #include "contact/enforce/both_sides.hpp"
 #include "contact/enforce/both_sides_pair.hpp"
 #include "contact/enforce/coefficient.hpp"
+#include "contact/enforce/effective_mass.hpp"
 #include "contact/enforce/switching.hpp"
 
 namespace abut::contact {
@@ -18,23 +20,37 @@ constexpr double exhausted = 1e-10;
 
 }  // namespace
 
-/// How the node moves relative to the facet's point under it, with the pair's inverse mass 1/m_s + sum H_k^2/m_k.
+/// How the node moves relative to the facet's point under it, with the pair's inverse mass: springs that press on one node share its mass
+/// in proportion to their stiffness along the normal (a node over the corner of four facets has four), so
+///   1/m = (n.P_s n/k)/m_s + sum H_k (n.P_k n/k)/m_k,   P = sum k' H' n' n'^T over all pairs of the node that act; pairs yet to touch:
+///   alone.
 BothSides::Opening BothSides::opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const {
   const auto& corner = surface_.surface().local()[at(facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
-  const auto inverse = [&](std::size_t n) { return mass_of(host, n) > 0.0 ? 1.0 / mass_of(host, n) : 0.0; };
+  const double k = pair_stiffness(node, facet);
+  const auto share = [&](Index own, double weight) {
+    const double all = pressed_.empty() || k <= 0.0 ? 0.0 : dot(c.normal, pressed_[at(own)] * c.normal);
+    return weight * std::max(weight, all / k);
+  };
+  const auto inverse = [&](std::size_t n) { return inverse_mass_of(host, static_cast<Index>(n), c.normal); };
   Opening m;
   const std::size_t self = host_of(held_own_[at(node)]);
   m.velocity = host.v[self];
-  m.inverse_mass = inverse(self);
+  m.inverse_mass = share(held_own_[at(node)], 1.0) * inverse(self);
   for (std::size_t i = 0; i < 4; ++i) {
     if (c.weight[i] == 0.0) continue;
     const std::size_t to = host_of(surface_own_[at(corner[i])]);
     m.velocity -= c.weight[i] * host.v[to];
-    m.inverse_mass += c.weight[i] * c.weight[i] * inverse(to);
+    m.inverse_mass += share(surface_own_[at(corner[i])], c.weight[i]) * inverse(to);
   }
   m.rate = dot(m.velocity, c.normal);
   return m;
+}
+
+/// What leap-frog made by a step that changed under the pair's last normal force (account.hpp).
+double BothSides::stepped(const HostState& host, const Pair& old, double rate) const {
+  if (old.acts == 0 || host.dt <= 0.0) return 0.0;
+  return made_by_changing_step(old.force, step_before(host.dt, host.dt_bar_old), host.dt, old.rate, rate);
 }
 
 /// Tangent of the elastic law at the depth where the spring alone stops the pair (at most half the gap beyond p's own): energy keeps it
@@ -52,7 +68,9 @@ BothSides::Spring BothSides::spring(const HostState& host, const Pair& old, doub
   const double moved = std::abs(m.rate) * host.dt;
   if (!options_.switch_correction || host.dt <= 0.0 || p + moved > NormalLaw::bend * gap) return {law.elastic, law.energy};
   const bool fresh = old.acts == 0;
-  const double others = !fresh && host.dt_bar_old > 0.0 ? (m.rate - old.rate) / host.dt_bar_old - old.acceleration : 0.0;
+  // The damper of this cycle is one of the others.
+  const double before = !fresh && host.dt_bar_old > 0.0 ? (m.rate - old.rate) / host.dt_bar_old - old.acceleration : 0.0;
+  const double others = before - law.damping * m.rate * m.inverse_mass;
   const Switched s = switched_spring({NormalLaw{gap, true}, k0, p, host.dt, m.rate, m.inverse_mass, others}, fresh);
   return {s.force, s.stored};
 }
@@ -131,8 +149,10 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   const Spring elastic = spring(host, old, 0.5 * k, gap, p, m, law);
   pair.damping = -law.damping * vn;
   const double pressing = elastic.force + pair.damping;
+  sums.stepped += stepped(host, old, vn);
   pair.acts = 1;
   pair.rate = vn;
+  pair.force = pressing;
   pair.acceleration = pressing * m.inverse_mass;
   bool slips = true;
   if (options_.rubs()) pair.friction = friction_of(host, old, pair, c.normal, m.velocity, vn, pressing, law.critical, sums, slips);
@@ -185,6 +205,7 @@ void BothSides::foresee(const HostState& host, Index node, Index facet, double k
   const Opening m = opening(host, node, facet, c);
   const double vn = m.rate;
   sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * old.damping);
+  sums.stepped += stepped(host, old, vn);
   if (options_.friction_form == BothSidesOptions::Friction::viscous) {
     sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(m.velocity - vn * c.normal, old.friction));
   }

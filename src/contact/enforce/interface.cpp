@@ -119,6 +119,13 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
   input.pairs = input.both_sides ? &recipe.both : nullptr;
   input.one_pass = recipe.kind != Recipe::Kind::two_surfaces;
   input.gap = input.both_sides ? recipe.both.largest_gap() : recipe.options.gap;
+  if (!input.both_sides && recipe.options.automatic_gap) {
+    double both = 0.0;
+    for (const SurfaceValues& s : made_->surfaces) {
+      if (!s.thickness.empty()) both += *std::max_element(s.thickness.begin(), s.thickness.end());
+    }
+    input.gap = std::max(input.gap, 0.5 * both);
+  }
   input.stiffness_scale = recipe.options.stiffness_scale;
   input.x = host.x;
   input.v = host.v;

@@ -37,6 +37,11 @@ struct NormalLaw {
     return 1.0 / ((1.0 - u) * (1.0 - u));
   }
 
+  /// d phi/dg at fixed P: phi is g^2 times a function of P/g.
+  [[nodiscard]] constexpr double gap_slope(double p) const {
+    return p > 0.0 && stiffens() ? (2.0 * potential(p) - p * force(p)) / gap : 0.0;
+  }
+
   [[nodiscard]] constexpr double potential(double p) const {
     if (p <= 0.0) return 0.0;
     if (!stiffens()) return 0.5 * p * p;

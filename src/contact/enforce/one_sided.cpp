@@ -27,6 +27,9 @@ void check(const Options& o) {
   if (o.start_duration > 0.0 && (o.initial == Initial::project || o.initial == Initial::ignore)) {
     throw std::invalid_argument("contact: a gradual start pushes initial penetrations out; it cannot be had with project or ignore");
   }
+  if (o.automatic_gap && o.rules.edges == Edges::plain) {
+    throw std::invalid_argument("contact: automatic_gap cannot be had with plain edges");
+  }
   if (!(o.depth_limit >= 0.0)) refuse("depth_limit must be >= 0", o.depth_limit);
 }
 
@@ -116,9 +119,11 @@ void OneSided::project(Side& held, Side& surface, bool move_surface, std::vector
       if (std::find(corners.begin(), corners.end(), node) != corners.end()) continue;
       if (surface_moved) surface.gather(moved);
       const PlainPoint p = project_plain(surface.patch(facet), moved[at(node)], options_.gap, true);
+      double gap = options_.gap;
+      if (options_.automatic_gap) gap = std::max(gap, 0.5 * (held.node_thickness(i) + surface.thickness_at(facet, p.weight)));
       constexpr double starter_tolerance = 0.02;
       if (std::abs(p.raw_s) > 1.0 + starter_tolerance || std::abs(p.raw_t) > 1.0 + starter_tolerance) continue;
-      const double outside = p.distance - options_.gap;
+      const double outside = p.distance - gap;
       if (outside >= 0.0) continue;
       const Vec3 by = (-outside * hair) * p.normal;
       surface_moved = move_surface || surface.surface().find(node) != no_index;

@@ -40,7 +40,7 @@ Wider wider_at(double x) {
 }  // namespace
 
 PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, Depth own, double scale,
-                     double node_stiffness, bool half_of_facet, double widening) {
+                     double node_stiffness, bool half_of_facet, double widening, bool gap_follows) {
   PairForce result;
   const ClosestPoint& c = m.closest;
   const Patch patch = surface.patch(m.facet);
@@ -84,32 +84,32 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
 
   const auto gradient = shape_gradient(patch.triangle, c.s, c.t);
   const Directions free = free_directions(c, patch.triangle);
-  std::array<double, 2> dkappa{};
+  std::array<double, 2> push{};  // dPsi/dxi at fixed distance
   std::array<Vec3, 2> tangent{};
   std::array<std::array<double, 4>, 2> dh{};
   for (std::size_t a = 0; a < static_cast<std::size_t>(free.count); ++a) {
-    double dk1 = 0.0;
+    double dk1 = 0.0, dgap = 0.0;
     for (std::size_t i = 0; i < corners; ++i) {
       dh[a][i] = free.d[a][0] * gradient[0][i] + free.d[a][1] * gradient[1][i];
       dk1 += dh[a][i] * surface.corner_stiffness(corner[i]);
+      if (gap_follows) dgap += 0.5 * dh[a][i] * surface.node_thickness(corner[i]);
       tangent[a] += dh[a][i] * patch.x[i];
     }
-    dkappa[a] = t.value * slope * dk1 + pair * (free.d[a][0] * t.ds + free.d[a][1] * t.dt);
+    push[a] = phi * (t.value * slope * dk1 + pair * (free.d[a][0] * t.ds + free.d[a][1] * t.dt));
+    if (dgap != 0.0) push[a] += result.stiffness * (law.force(p) + law.gap_slope(p)) * dgap;
   }
   std::array<double, 2> shift{};  // c^a
   const Vec3 r = x - c.point;
-  if (dkappa[0] != 0.0 || dkappa[1] != 0.0) {
+  if (push[0] != 0.0 || push[1] != 0.0) {
     const double a11 = squared_norm(tangent[0]);
     if (free.count == 1) {
-      shift[0] = a11 > 0.0 ? phi * dkappa[0] / a11 : 0.0;
+      shift[0] = a11 > 0.0 ? push[0] / a11 : 0.0;
     } else {
       const double a22 = squared_norm(tangent[1]);
       double a12 = dot(tangent[0], tangent[1]);
       if (!patch.triangle) a12 -= 0.25 * dot(r, (patch.x[0] - patch.x[1]) + (patch.x[2] - patch.x[3]));
       const double det = a11 * a22 - a12 * a12;
-      if (det > 1e-3 * a11 * a22) {
-        shift = {phi * (a22 * dkappa[0] - a12 * dkappa[1]) / det, phi * (a11 * dkappa[1] - a12 * dkappa[0]) / det};
-      }
+      if (det > 1e-3 * a11 * a22) { shift = {(a22 * push[0] - a12 * push[1]) / det, (a11 * push[1] - a12 * push[0]) / det}; }
     }
     const Vec3 sideways = shift[0] * tangent[0] + shift[1] * tangent[1];
     result.on_node -= sideways;

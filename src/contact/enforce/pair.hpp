@@ -47,8 +47,10 @@ struct Depth {
 
 /// @param scale, node_stiffness  s and K2
 /// @param widening               strips widen by this fraction of a side per unit of depth behind the facet (0: they do not)
+/// @param gap_follows            the gap is half of the surface's thickness plus a constant: where thickness changes along the surface the
+///                               force turns with the outer face. Else the gap is the same everywhere
 /// @param half_of_facet          K = s K1 / 2 instead of the series (nodes without a stiffness of their own)
 [[nodiscard]] PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, Depth p, double scale,
-                                   double node_stiffness, bool half_of_facet, double widening);
+                                   double node_stiffness, bool half_of_facet, double widening, bool gap_follows = false);
 
 }  // namespace abut::contact

@@ -64,7 +64,6 @@ PassTotals& PassTotals::operator+=(const PassTotals& b) {
 
 Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
     : options_(options),
-      law_{options.rules.law == Law::stiffening ? options.gap : 0.0},
       two_passes_(!one_pass),
       half_of_facet_(one_pass && options.rules.one_pass_half_stiffness),
       states_(held_nodes),
@@ -127,6 +126,8 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
     return;
   }
   if (stale_) {
+    largest_gap_ = options_.gap;
+    if (options_.automatic_gap) largest_gap_ = std::max(options_.gap, 0.5 * (held.largest_thickness() + surface.largest_thickness()));
     std::fill(in_front_.begin(), in_front_.end(), std::uint8_t{0});
     std::fill(quiet_.begin(), quiet_.end(), std::uint8_t{awake});
   }
@@ -138,10 +139,7 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
     if (!held.node_active(i)) return -1.0;
     const NodeState& s = states_.before(i);
     if (s.held == 0 || s.facet == no_index || !surface.active(s.facet)) return reach();
-    // Lists are made with the usual strips; wider ones may bring a facet nearer by what they are wider.
-    const double wider =
-        s.held == 2 && surface.patch(s.facet).borders != 0 ? 1.5 * border_widening * std::sqrt(surface.facet_area(s.facet)) : 0.0;
-    return std::max(reach(), std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + wider + further);
+    return std::max(reach(), std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + further);
   };
   const auto covers = [&](Index i) { return covered_[at(i)] = reach_of(i); };
   const bool renewed = candidates_.update(held, surface, motion, covers, skin_, stale_ || outgrown_, executor_);

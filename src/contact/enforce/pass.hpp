@@ -96,6 +96,8 @@ class Pass {
     Vec3 point, normal;
     double distance = 0.0;
     double penetration = 0.0;
+    double full_gap = 0.0;  ///< of the pair, whatever initial penetration takes from it
+    NormalLaw law;
     Measure measure;                ///< what `pair` is made from, where it is not made yet
     double gap = 0.0;               ///< the same
     bool pair_open = false;         ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
@@ -155,7 +157,7 @@ class Pass {
   };
 
   Options options_;
-  NormalLaw law_;
+  double largest_gap_ = 0.0;  ///< of any pair
   bool two_passes_ = false;
   bool half_of_facet_ = false;
   bool stale_ = true;
@@ -195,7 +197,10 @@ class Pass {
   /// How much of a node's offset the gradual start gives back to its gap in this step.
   [[nodiscard]] double growth(const NodeState& before) const;
   /// Gap of a node at this distance, less what initial penetration takes from it.
-  [[nodiscard]] double gap_of(double distance, NodeState& after) const;
+  [[nodiscard]] double gap_of(double full_gap, double distance, double depth, NodeState& after) const;
+  /// Gap of a pair: the interface's, or from the thickness of both sides.
+  [[nodiscard]] double full_gap(const Side& held, const Side& surface, Index i, Index facet, const std::array<double, 4>& weight) const;
+  [[nodiscard]] NormalLaw law_of(double full_gap) const { return {options_.rules.law == Law::stiffening ? full_gap : 0.0}; }
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                        const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums);
@@ -203,11 +208,15 @@ class Pass {
   void look_further(const Side& held, const Side& surface, const Measure& m, Index i, double strip, bool was_held, Touch& touch,
                     GroupSums& sums);
   /// The pair of facet `nearest` and node i, with whichever of `all` stores the most for it.
-  void add_strongest(const Side& held, const Side& surface, Index i, double gap, bool widens, Further& nearest, std::span<Further> all,
-                     double share, PairForce& sum) const;
+  void add_strongest(const Side& held, const Side& surface, Index i, const NormalLaw& law, double gap, bool widens, Further& nearest,
+                     std::span<Further> all, double share, PairForce& sum) const;
   void measure_plain(const Side& held, const Side& surface, Index i, Touch& touch);
   /// Stiffness of a node with a facet, neither interpolated nor tapered (T13; TYPE5: half of the facet's).
   [[nodiscard]] double plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const;
+  /// Nearest of the facets that push in about the same direction as this one, from the tree.
+  [[nodiscard]] Measure nearest_pushing_alike(const Side& held, const Side& surface, Index i, Index facet) const;
+  /// Nearest active facet at any distance, from the tree: for nodes whose list is empty.
+  [[nodiscard]] Measure nearest_of_all(const Side& held, const Side& surface, Index i) const;
   [[nodiscard]] Index swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads,
                                   Index i) const;
   /// Velocity of a held node relative to a material point of the surface.
@@ -222,8 +231,8 @@ class Pass {
                                    const Kinematics& motion) const;
   void limit_depths();
   [[nodiscard]] const NodeState& now(Index i) const { return committed_ ? states_.before(i) : states_.after(i); }
-  /// Signed distance of a held node to the other side, whatever it touches; NaN when nothing is near.
-  [[nodiscard]] double distance_to(const Side& held, const Side& surface, Index i) const;
+  /// Signed distance of a held node to the other side less the pair's gap, whatever it touches; NaN when nothing is near.
+  [[nodiscard]] double opening_of(const Side& held, const Side& surface, Index i) const;
   /// True while the node cannot touch, now or in the coming step.
   [[nodiscard]] bool far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i);
   [[nodiscard]] bool asleep(const Scene& scene, Index i);
@@ -238,7 +247,7 @@ class Pass {
   [[nodiscard]] bool near(const HostState& host, const Side& held, const SideLoads& held_loads, Index i, double distance) const;
   /// Distance within which lists have every facet: where contact is, and where it may begin in the coming step.
   [[nodiscard]] double reach() const {
-    return std::max({options_.gap, largest_depth_, skin_ + stronger_within * longest_}) + flight_share * size_;
+    return std::max({largest_gap_, largest_depth_, skin_ + stronger_within * longest_}) + flight_share * size_;
   }
   /// A held node whose facets are asked for within this distance may soon need more than its list has.
   [[nodiscard]] bool outgrows(Index i, double distance) const { return distance + flight_share * size_ > covered_[at(i)]; }
@@ -246,7 +255,7 @@ class Pass {
   [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
   /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
   [[nodiscard]] double clearance(double due) const {
-    return passed_over * std::min(smallest_depth_, due - candidates_.clock() - options_.gap) - surface_step_;
+    return passed_over * std::min(smallest_depth_, due - candidates_.clock() - largest_gap_) - surface_step_;
   }
   void evaluate_group(const Scene& scene, std::size_t number, Work& work, GroupSums& sums);
   void measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums);

@@ -42,18 +42,18 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
   const Index node = held.nodes()[at(i)];
   const Vec3 v = host.v[at(node)] - (host.dt > 0.0 ? mean_step_ / host.dt : Vec3{});
   const Vec3 flight = (1.5 * step_growth * host.dt) * v;
-  if (norm(flight) + 2.0 * surface_step_ <= reach() - options_.gap) return;
+  if (norm(flight) + 2.0 * surface_step_ <= reach() - largest_gap_) return;
   Bounds path;
   path.include(held.x()[at(i)]);
   path.include(held.x()[at(i)] + flight);
   double largest = 0.0;
-  candidates_.near(path, options_.gap + 2.0 * surface_step_, [&](Index f) {
+  candidates_.near(path, largest_gap_ + 2.0 * surface_step_, [&](Index f) {
     // The boxes of the lists are as old as the lists: only those of now may count.
     Bounds box = facet_bounds(surface.patch(f));
-    box.inflate(options_.gap + 2.0 * surface_step_);
+    box.inflate(largest_gap_ + 2.0 * surface_step_);
     if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
   });
-  held_loads.node[at(i)].own_stiffness += largest * law_.tangent(1e30);
+  held_loads.node[at(i)].own_stiffness += largest * law_of(largest_gap_).tangent(1e30);
   held_loads.loaded[at(i)] |= SideLoads::now;
 }
 
@@ -98,7 +98,7 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node
   // enters within a step takes and gives other energies than it holds by up to h^2 K/m, and no first force corrects it as the normal one
   // is.
-  const double curvature = 16.0 * 8.0 * law_.potential(penetration) / (width * width);
+  const double curvature = 16.0 * 8.0 * touch.law.potential(penetration) / (width * width);
   return 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * curvature;
 }
 
@@ -117,8 +117,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
   const double pair_inverse_mass = touch.contact || options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch) : 0.0;
-  if (options_.gap > 0.0 && -motion.rate * host.dt >= -passed_over * penetration) {
-    totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / options_.gap);
+  if (touch.full_gap > 0.0 && -motion.rate * host.dt >= -passed_over * penetration) {
+    totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / touch.full_gap);
   }
   // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
   const double grown = growth(before);
@@ -134,7 +134,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     if (may_touch && touch.pair_open) { touch.pair = force_of(held, surface, touch.measure, i, touch.gap, touch.widens); }
     if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
       const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
-      double tangent = touch.pair.stiffness * law_.tangent(reached) + touch.pair.extra_tangent;
+      double tangent = touch.pair.stiffness * touch.law.tangent(reached) + touch.pair.extra_tangent;
       if (options_.rubs()) {
         const double pressure = touch.pair.magnitude / surface.facet_area(touch.facet);
         const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
@@ -162,8 +162,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
         reaction.stiffness = std::max(reaction.stiffness, tangent);
       }
     }
-    if (law_.stiffens() && closing > 0.0) {
-      const double room = std::max(options_.gap - penetration, (1.0 - NormalLaw::bend) * options_.gap);
+    if (touch.law.stiffens() && closing > 0.0) {
+      const double room = std::max(touch.full_gap - penetration, (1.0 - NormalLaw::bend) * touch.full_gap);
       const double horizon = touch.contact ? 2.0 : 0.5 / passed_over;
       const bool soon = host.dt <= 0.0 || 0.5 * room < horizon * host.dt * closing;
       if (soon && 0.5 * room / closing < totals.kinematic_step) {
@@ -207,7 +207,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * pair_inverse_mass;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   double stored = touch.pair.potential;
-  const double lightness = inverse_mass * touch.pair.stiffness * law_.tangent(penetration) * host.dt * host.dt;
+  const double lightness = inverse_mass * touch.pair.stiffness * touch.law.tangent(penetration) * host.dt * host.dt;
   // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
   // comes from in front deeper than its motion along the normal.
   const bool over_fold = closest() && rules.switch_correction && grown == 0.0 &&
@@ -217,11 +217,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
     const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
     const double coming = foreseen_step(h_before, host.dt);
-    const Switching s{law_, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
+    const Switching s{touch.law, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
     // Where the force has other parts than the law's at this depth (strips that widen, facets that store more), they go with it.
-    const double lawful = touch.pair.stiffness * law_.force(penetration);
-    const double held_by_law = touch.pair.stiffness * law_.potential(penetration);
+    const double lawful = touch.pair.stiffness * touch.law.force(penetration);
+    const double held_by_law = touch.pair.stiffness * touch.law.potential(penetration);
     double force = switched.force * (lawful > 0.0 ? touch.pair.magnitude / lawful : 1.0);
     stored = switched.stored * (held_by_law > 0.0 ? touch.pair.potential / held_by_law : 1.0);
     // A light pair settles its account when it opens within the coming step, which may grow where this contact is what holds it.
@@ -230,7 +230,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     if (light && leaves * longest > penetration && grown == 0.0 && (fresh ? moved_in > penetration : before.reckoned != 0)) {
       settled = closest();
       force = last_force({motion.rate, host.dt, coming, inverse_mass, others, -made});
-      const double bound = touch.pair.stiffness * law_.force(4.0 * coming * leaves);
+      const double bound = touch.pair.stiffness * touch.law.force(4.0 * coming * leaves);
       force = std::clamp(force, switched.force - bound, switched.force + bound);
       const double rate = motion.rate + 0.5 * (host.dt + coming) * (inverse_mass * force + others);
       stored = 0.5 * force * rate * coming + made_by_changing_step(force, host.dt, coming, motion.rate, rate);
@@ -266,7 +266,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {
-    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * law_.tangent(penetration) / pair_inverse_mass);
+    const double c = 2.0 * options_.damping * std::sqrt(touch.pair.stiffness * touch.law.tangent(penetration) / pair_inverse_mass);
     after.damping = std::max(-c * motion.rate, -normal_force);
     totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
     on_node += after.damping * touch.normal;

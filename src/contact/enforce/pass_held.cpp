@@ -10,8 +10,8 @@ namespace abut::contact {
 
 bool Pass::in_batches(const HostState& host) const {
   const Rules& rules = options_.rules;
-  return closest() && settled_ && host.dt > 0.0 && !host.mass.empty() && rules.limits_step && !half_of_facet_ && options_.damping == 0.0 &&
-         options_.start_duration == 0.0 && !rules.reference_friction &&
+  return closest() && !options_.automatic_gap && settled_ && host.dt > 0.0 && !host.mass.empty() && rules.limits_step && !half_of_facet_ &&
+         options_.damping == 0.0 && options_.start_duration == 0.0 && !rules.reference_friction &&
          (!options_.rubs() || (options_.friction_law.model == FrictionLaw::Model::coulomb && !options_.filter.acts() &&
                                options_.shear_limit >= 1e29 && options_.friction >= 0.0));
 }
@@ -29,7 +29,7 @@ HeldRules Pass::held_rules(const HostState& host) const {
   r.step_before = step_before(host.dt, host.dt_bar_old);
   r.smallest = 1e-12 * size_;
   r.pairs = two_passes_ ? 2.0 : 1.0;
-  r.stiffens = law_.stiffens();
+  r.stiffens = law_of(options_.gap).stiffens();
   r.corrects_switching = options_.rules.switch_correction;
   return r;
 }

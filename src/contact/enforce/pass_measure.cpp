@@ -102,6 +102,13 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   Measure m;
   if (was_held || !candidates_.of(i).empty())
     m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal, strip} : HeldBy{});
+  const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;
+  in_front_[at(i)] = in_front && !touch.widens ? 1 : 0;  // as a free node sees it: without the wider strips of held ones
+  if (in_front && !was_held) candidates_.limit_nearest_due(i, lowest_over_borders(surface, candidates_, i, x) + candidates_.clock());
+  // Beyond their reach lists need not hold the nearest facet: what is said and remembered must not depend on how old they are.
+  const double away = m.found() ? std::sqrt(m.closest.squared_distance) : 1e300;
+  if (was_held || near(host, held, held_loads, i, away)) after.in_front = in_front ? 1 : 0;
+  if (!was_held && away > reach()) m = before.ignored != 0 || before.offset > 0.0 ? nearest_of_all(held, surface, i) : Measure{};
   const auto take = [&](const Measure& measure) {
     touch.facet = measure.facet;
     touch.known = true;
@@ -109,32 +116,27 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     touch.point = measure.closest.point;
     touch.normal = measure.normal;
     touch.distance = measure.distance;
+    touch.full_gap = full_gap(held, surface, i, measure.facet, measure.closest.weight);
+    touch.law = law_of(touch.full_gap);
   };
   bool meets = false;
-  double gap = options_.gap;
-  const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;
-  in_front_[at(i)] = in_front ? 1 : 0;
-  if (in_front && !was_held) candidates_.limit_nearest_due(i, lowest_over_borders(surface, candidates_, i, x) + candidates_.clock());
-  // What is said and remembered must not depend on how old the lists are: it is of facets that every list has.
-  const double away = m.found() ? std::sqrt(m.closest.squared_distance) : 0.0;
-  if (was_held || (m.found() && near(host, held, held_loads, i, away))) after.in_front = in_front ? 1 : 0;
-  if (!was_held && away > reach()) m = {};
+  double gap = 0.0;
   if (m.found()) {
     take(m);
-    gap = gap_of(m.distance, after);
+    gap = gap_of(touch.full_gap, m.distance, depth_[at(m.facet)], after);
     if (!m.closest.beyond && m.distance >= 0.0 && after.ignored != 0) {
       // It came through from behind: the gap it finds itself in was never closed, and begins at what is there.
       after.ignored = 0;
-      after.offset = std::max(after.offset, std::max(options_.gap - m.distance, 0.0));
-      gap = options_.gap - after.offset;
+      after.offset = std::max(after.offset, std::max(touch.full_gap - m.distance, 0.0));
+      gap = touch.full_gap - after.offset;
     }
-    const bool all_offset = after.offset > 0.0 && after.offset >= options_.gap - m.distance;  // P is zero, whatever its rounding
+    const bool all_offset = after.offset > 0.0 && after.offset >= touch.full_gap - m.distance;  // P is zero, whatever its rounding
     meets = !m.closest.beyond && gap - m.distance > 0.0 && !all_offset;
     if (meets && !was_held && m.distance < 0.0 && !options_.rules.unlimited_depth) {
       const double depth = depth_[at(m.facet)];
       const double came_from = m.distance - host.dt * kinematics(host, held, surface, i, touch).rate;
-      if (-m.distance > depth || (host.dt > 0.0 && came_from < -depth)) after.ignored = 1;
-      if (after.ignored != 0) meets = false;
+      if (-m.distance <= depth && host.dt > 0.0 && came_from < -depth) after.ignored = 1;
+      if (-m.distance > depth || after.ignored != 0) meets = false;
     }
   } else {
     after.ignored = 0;
@@ -143,10 +145,11 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   if (!meets && !was_held && before.ignored == 0 && after.offset == 0.0 && host.dt > 0.0) {
     const Index hit = swept_facet(held, surface, held_loads, surface_loads, i);
     if (hit != no_index) {
-      const Measure caught = descend_to_nearest(surface, hit, x);
+      const Measure caught = nearest_pushing_alike(held, surface, i, hit);
       if (!caught.closest.beyond && caught.distance < 0.0) {
         m = caught;
         take(m);
+        gap = touch.full_gap;
         meets = true;
         touch.fresh_hit = true;
         after.ignored = 0;
@@ -157,10 +160,12 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   }
   if (!touch.known) return;
   touch.penetration = gap - m.distance;
-  // A node that was in front, that the swept test caught, or that touches at the start comes through the front.
-  if (!was_held) {
-    touch.widens = before.in_front != 0 || touch.fresh_hit || !settled_ ||
-                   (meets && m.distance - host.dt * kinematics(host, held, surface, i, touch).rate > gap);
+  // A node that was in front a step ago, that the swept test caught, or that touches at the start comes through the front.
+  if (!was_held && (meets || touch.penetration > 0.0)) {
+    const double came_from = m.distance - host.dt * kinematics(host, held, surface, i, touch).rate;
+    touch.widens = touch.fresh_hit || !settled_ || came_from >= -1e-10 * size_;  // bodies that touch begin at zero, but for rounding
+  } else if (!was_held) {
+    touch.widens = true;
   }
   touch.pair_open = !meets && !was_held;
   touch.measure = m;
@@ -178,9 +183,51 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   touch.lost = touch.lost || (was_held && touch.penetration > 0.0 && after.ignored == 0 && touch.pair.stiffness <= 0.0);
 }
 
+Measure Pass::nearest_pushing_alike(const Side& held, const Side& surface, Index i, Index facet) const {
+  const Vec3 x = held.x()[at(i)];
+  const Measure first = signed_measure(surface, facet, closest_point(surface.patch(facet), x), x);
+  Measure best = first;
+  candidates_.near({x, x}, std::sqrt(first.closest.squared_distance), [&](Index f) {
+    const auto& corners = surface.surface().facets()[at(f)].node;
+    if (!surface.active(f) || f == facet || std::find(corners.begin(), corners.end(), held.nodes()[at(i)]) != corners.end()) return;
+    const ClosestPoint c = closest_point(surface.patch(f), x);
+    const double nearer = best.closest.squared_distance;
+    if (c.squared_distance > nearer || (c.squared_distance == nearer && (best.facet == facet || f > best.facet))) return;
+    const Measure m = signed_measure(surface, f, c, x);
+    if (pushes_alike(m, first.normal)) best = m;
+  });
+  return best;
+}
+
+Measure Pass::nearest_of_all(const Side& held, const Side& surface, Index i) const {
+  const Vec3 x = held.x()[at(i)];
+  Measure best;
+  ClosestPoint closest;
+  for (double within = size_; best.facet == no_index && within < 1e9 * size_; within *= 4.0) {
+    double least = within;
+    candidates_.near({x, x}, within, [&](Index f) {
+      const auto& corners = surface.surface().facets()[at(f)].node;
+      if (!surface.active(f) || std::find(corners.begin(), corners.end(), held.nodes()[at(i)]) != corners.end()) return;
+      const ClosestPoint c = closest_point(surface.patch(f), x);
+      const double distance = std::sqrt(c.squared_distance);
+      if (distance > least || (distance == least && f > best.facet)) return;
+      least = distance;
+      closest = c;
+      best.facet = f;
+    });
+  }
+  return best.found() ? signed_measure(surface, best.facet, closest, x) : best;
+}
+
 PairForce Pass::force_of(const Side& held, const Side& surface, const Measure& m, Index i, Depth p, bool widens) const {
-  return pair_force(surface, m, held.x()[at(i)], law_, p, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_,
-                    widens ? widening_[at(m.facet)] : 0.0);
+  const double full = full_gap(held, surface, i, m.facet, m.closest.weight);
+  return pair_force(surface, m, held.x()[at(i)], law_of(full), p, options_.stiffness_scale, held.node_stiffness(i), half_of_facet_,
+                    widens ? widening_[at(m.facet)] : 0.0, options_.automatic_gap && full > options_.gap);
+}
+
+double Pass::full_gap(const Side& held, const Side& surface, Index i, Index facet, const std::array<double, 4>& weight) const {
+  if (!options_.automatic_gap) return options_.gap;
+  return std::max(options_.gap, 0.5 * (held.node_thickness(i) + surface.thickness_at(facet, weight)));
 }
 
 double Pass::strongest(const Side& held, const Side& surface, Index i) const {
@@ -206,7 +253,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   const double gap = touch.penetration + m.distance;
   const double top = strongest(held, surface, i);
   const double beyond = reach_of_stronger(touch.pair.stiffness, top, touch.penetration);
-  const double reach = was_held ? 1e300 : std::max(options_.gap, largest_depth_);  // what every list holds
+  const double reach = was_held ? 1e300 : std::max(largest_gap_, largest_depth_);  // what every list holds
   if (outgrows(i, distance + beyond)) sums.outgrown = true;
   const double equal = equally_near * distance;
   touch.first_further = sums.further.size();
@@ -236,7 +283,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   for (Further& one : all) {
     if (!one.equal) continue;
     normal += one.measure.normal;
-    add_strongest(held, surface, i, gap, touch.widens, one, all, 1.0 / touch.equals, sum);
+    add_strongest(held, surface, i, touch.law, gap, touch.widens, one, all, 1.0 / touch.equals, sum);
   }
   sum.on_facet = all[0].on_facet;
   all[0].acts = false;  // it has the node's own reaction
@@ -249,8 +296,8 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   }
 }
 
-void Pass::add_strongest(const Side& held, const Side& surface, Index i, double gap, bool widens, Further& nearest, std::span<Further> all,
-                         double share, PairForce& sum) const {
+void Pass::add_strongest(const Side& held, const Side& surface, Index i, const NormalLaw& law, double gap, bool widens, Further& nearest,
+                         std::span<Further> all, double share, PairForce& sum) const {
   const double sign = nearest.measure.distance < 0.0 ? -1.0 : 1.0;
   const double p = gap - nearest.measure.distance;
   struct Other {
@@ -263,7 +310,7 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, double 
   };
   const auto stores = [&](const Further& one) {
     if (&one == &nearest || widening_[at(one.measure.facet)] <= 0.0) return 0.0;
-    return one.own.stiffness * law_.potential(seen(one).depth);
+    return one.own.stiffness * law.potential(seen(one).depth);
   };
   double most = 0.0;
   for (const Further& one : all) most = std::max(most, stores(one));
@@ -288,12 +335,12 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, double 
     const double slope = sign * (1.0 + p / o.length);
     const double of_nearest = 1.0 - o.less / o.length - slope;
     PairForce part = force_of(held, surface, one.measure, i, Depth{o.depth, nearest.measure.distance, slope, false}, widens);
-    part.magnitude = part.stiffness * law_.force(o.depth);
+    part.magnitude = part.stiffness * law.force(o.depth);
     const Vec3 push = (of_nearest * part.magnitude + part.of_wider) * nearest.measure.normal;
     part.on_node += push;
     const double turn =
         slope * slope + of_nearest * of_nearest + 2.0 * slope * of_nearest * dot(one.measure.normal, nearest.measure.normal);
-    part.extra_tangent += std::max(turn - 1.0, 0.0) * part.stiffness * law_.tangent(p) + 2.0 * part.magnitude / o.length;
+    part.extra_tangent += std::max(turn - 1.0, 0.0) * part.stiffness * law.tangent(p) + 2.0 * part.magnitude / o.length;
     add(part, share);
     for (std::size_t c = 0; c < 4; ++c) {
       one.on_facet[c] += share * part.on_facet[c];
@@ -305,9 +352,10 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, double 
 
 double Pass::growth(const NodeState& before) const { return before.offset < never ? (1.0 - keep_) * before.offset : 0.0; }
 
-double Pass::gap_of(double distance, NodeState& after) const {
-  const double full = options_.gap - distance;
+double Pass::gap_of(double full_gap, double distance, double depth, NodeState& after) const {
+  const double full = full_gap - distance;
   if (!settled_) {
+    if (distance < -depth) return full_gap;  // it is not met
     if (full > 0.0 && (options_.initial == Initial::offset || options_.start_duration > 0.0)) after.offset = full;
     if (full > 0.0 && options_.initial == Initial::ignore) after.offset = never;
   } else if (full <= 0.0) {
@@ -315,7 +363,7 @@ double Pass::gap_of(double distance, NodeState& after) const {
   } else if (after.offset < never) {
     after.offset = std::min(keep_ * after.offset, full);  // what the node has moved away is gap again
   }
-  return options_.gap - after.offset;
+  return full_gap - after.offset;
 }
 
 double Pass::plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const {
@@ -338,22 +386,24 @@ void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& 
   touch.point = p.point;
   touch.normal = p.normal;
   touch.distance = p.distance;
-  const double penetration = gap_of(p.distance, states_.after(i)) - p.distance;
+  touch.full_gap = options_.gap;
+  touch.law = law_of(options_.gap);
+  const double penetration = gap_of(options_.gap, p.distance, 1e300, states_.after(i)) - p.distance;
   touch.penetration = penetration;
   PairForce& pair = touch.pair;
   pair.stiffness = plain_stiffness(held, surface, i, t.facet);
   if (penetration <= 0.0) return;
   const bool too_deep = !options_.rules.unlimited_depth && states_.before(i).held == 0 && -p.distance > depth_[at(t.facet)];
   if (too_deep) return;
-  pair.magnitude = pair.stiffness * law_.force(penetration);
-  pair.potential = pair.stiffness * law_.potential(penetration);
+  pair.magnitude = pair.stiffness * touch.law.force(penetration);
+  pair.potential = pair.stiffness * touch.law.potential(penetration);
   pair.on_node = pair.magnitude * p.normal;
   for (std::size_t k = 0; k < 4; ++k) pair.on_facet[k] = -p.weight[k] * pair.on_node;
   // A node without stiffness (its elements are gone) still counts as projected, with no force.
   touch.contact = true;
 }
 
-double Pass::distance_to(const Side& held, const Side& surface, Index i) const {
+double Pass::opening_of(const Side& held, const Side& surface, Index i) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!held.node_active(i)) return none;
   const Vec3 x = held.x()[at(i)];
@@ -361,10 +411,14 @@ double Pass::distance_to(const Side& held, const Side& surface, Index i) const {
     const Index facet = tracked_[at(i)].facet;
     if (facet == no_index || !surface.active(facet)) return none;
     const PlainPoint p = project_plain(surface.patch(facet), x, options_.gap, options_.rules.area_ratio_projection);
-    return p.inside ? p.distance : none;
+    return p.inside ? p.distance - options_.gap : none;
   }
   const NodeState& node = now(i);
-  if (node.held != 0 && node.facet != no_index && surface.active(node.facet)) return descend_to_nearest(surface, node.facet, x).distance;
+  const auto opening = [&](const Measure& m) { return m.distance - full_gap(held, surface, i, m.facet, m.closest.weight); };
+  if (node.held != 0 && node.facet != no_index && surface.active(node.facet)) {
+    const double strip = border_strip + (node.held == 2 ? border_widening : 0.0);
+    return opening(signed_measure(surface, node.facet, closest_point(extended(surface, node.facet, strip), x), x));
+  }
   if (!candidates_.made()) return none;
   ClosestPoint nearest;
   Index facet = no_index;
@@ -375,14 +429,14 @@ double Pass::distance_to(const Side& held, const Side& surface, Index i) const {
     nearest = other;
     facet = entry.facet;
   }
-  return facet == no_index || nearest.beyond ? none : signed_measure(surface, facet, nearest, x).distance;
+  return facet == no_index || nearest.beyond ? none : opening(signed_measure(surface, facet, nearest, x));
 }
 
 void Pass::add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const {
   for (Index i = 0; i < held.node_count(); ++i) {
     const NodeState& node = now(i);
     NodalContact c;
-    c.opening = distance_to(held, surface, i) - options_.gap;
+    c.opening = opening_of(held, surface, i);
     if (node.held != 0) {
       c.state = slips_[at(i)] != 0 ? NodalContact::State::slip : NodalContact::State::stick;
       c.penetration = std::max(0.0, (node.offset < never ? -node.offset : 0.0) - c.opening);

@@ -78,13 +78,14 @@ void fields(Io& io, T& v) {
 
 template <class Io, LikeA<Options> T>
 void fields(Io& io, T& v) {
-  auto& [scale, friction, friction_law, filter, tangential_ratio, gap, birth, death, start, shear_limit, damping, initial, depth, rules] =
-      v;
+  auto& [scale, friction, friction_law, filter, tangential_ratio, gap, automatic, birth, death, start, shear_limit, damping, initial, depth,
+         rules] = v;
   for (auto* number : {&scale, &friction, &tangential_ratio, &gap, &birth, &death, &start, &shear_limit, &damping, &depth})
     io.value(*number);
   fields(io, friction_law);
   fields(io, filter);
   io.choice(initial, Initial::ignore);
+  io.flag(automatic);
   fields(io, rules);
 }
 

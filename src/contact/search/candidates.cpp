@@ -11,15 +11,24 @@ Bounds facet_bounds(const Patch& patch) {
   if (patch.borders != 0) {
     // A strip leaves the corners' box by at most half of its share of the facet's extent per side and direction.
     const Vec3 width = box.high - box.low;
-    box.low -= 2.5 * border_strip * width;
-    box.high += 2.5 * border_strip * width;
+    box.low -= 2.5 * patch.strip * width;
+    box.high += 2.5 * patch.strip * width;
   }
   return box;
 }
 
 namespace {
+
 constexpr double worth_keeping = 0.75;  // of the skin: lists that would have to be looked at again at once are made anew
+
+/// Lists count strips as wide as a held node's can be: they hold for held and free nodes.
+Patch widest(const Side& surface, Index f) {
+  Patch patch = surface.patch(f);
+  patch.strip = border_strip + border_widening;
+  return patch;
 }
+
+}  // namespace
 
 double lowest_over_borders(const Side& surface, const Candidates& lists, Index node, const Vec3& x) {
   double least = 1e300;
@@ -51,7 +60,7 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
   clock_ = 0.0;
   std::vector<Bounds>& boxes = tree_.boxes();
   boxes.resize(at(surface.facet_count()));
-  for (Index f = 0; f < surface.facet_count(); ++f) boxes[at(f)] = facet_bounds(surface.patch(f));
+  for (Index f = 0; f < surface.facet_count(); ++f) boxes[at(f)] = facet_bounds(widest(surface, f));
   tree_.update();
   make(held, surface, reach, skin, executor);
   return true;
@@ -100,10 +109,12 @@ void Candidates::list(const Side& held, const Side& surface, Index node, double 
     for (const Index n : surface.surface().facets()[at(f)].node) {
       if (n == held.nodes()[at(node)]) return;  // nobody touches a facet of its own
     }
-    const double away = std::sqrt(closest_point(surface.patch(f), x).squared_distance);
+    const double away = std::sqrt(closest_point(widest(surface, f), x).squared_distance);
     if (away > limit) return;
-    entries.push_back({f, false, away});  // the clock shows 0
-    nearest_[at(node)] = std::min(nearest_[at(node)], away);
+    entries.push_back({f, true, away});  // the clock shows 0
+    // A free node sees the usual strips.
+    const double usual = surface.borders(f) == 0 ? away : std::sqrt(closest_point(surface.patch(f), x).squared_distance);
+    if (usual <= limit) nearest_[at(node)] = std::min(nearest_[at(node)], usual);
     if (surface.borders(f) != 0) nearest_[at(node)] = std::min(nearest_[at(node)], height_over(surface.patch(f), x));
   });
   std::sort(entries.begin() + begin, entries.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });

@@ -6,10 +6,8 @@
 namespace abut::contact {
 namespace {
 
-constexpr double same_way = -0.5;
-
 bool admissible(const Measure& m, const HeldBy& held, bool held_in_front) {
-  return dot(m.normal, held.normal) > same_way || (held_in_front && m.distance >= 0.0);
+  return pushes_alike(m, held.normal) || (held_in_front && m.distance >= 0.0);
 }
 
 }  // namespace
@@ -99,27 +97,6 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   if (!listed) others.facet = no_index;
   candidates.set_others(node, others);
   return facet == no_index ? best : signed_measure(surface, facet, closest, x);
-}
-
-Measure descend_to_nearest(const Side& surface, Index facet, const Vec3& x) {
-  Measure best = signed_measure(surface, facet, closest_point(surface.patch(facet), x), x);
-  const HeldBy held{facet, best.normal};
-  for (bool better = true; better;) {
-    better = false;
-    const Index from = best.facet;
-    for (const Index corner : surface.surface().local()[at(from)]) {
-      for (const Index f : surface.surface().facets_at(corner)) {
-        if (!surface.active(f)) continue;
-        const ClosestPoint other = closest_point(surface.patch(f), x);
-        if (other.squared_distance >= best.closest.squared_distance) continue;
-        const Measure m = signed_measure(surface, f, other, x);
-        if (!admissible(m, held, false)) continue;
-        best = m;
-        better = true;
-      }
-    }
-  }
-  return best;
 }
 
 }  // namespace abut::contact

@@ -33,8 +33,8 @@ struct HeldBy {
 /// Distances that it measures go back into the node's list.
 [[nodiscard]] Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held);
 
-/// A swept hit: walks from `facet` over neighbours to the closest point that pushes the same way.
-[[nodiscard]] Measure descend_to_nearest(const Side& surface, Index facet, const Vec3& x);
+/// It pushes in about the direction of `normal`.
+[[nodiscard]] inline bool pushes_alike(const Measure& m, const Vec3& normal) { return dot(m.normal, normal) > -0.5; }
 
 /// Facet f extended beyond its free borders by `strip` of a side.
 [[nodiscard]] inline Patch extended(const Side& surface, Index f, double strip) {

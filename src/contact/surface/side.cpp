@@ -68,6 +68,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   }
   if (!facets) {
     if (!state.stiffness.empty()) node_stiffness_.assign(state.stiffness.begin(), state.stiffness.end());
+    if (!state.thickness.empty()) node_thickness_.assign(state.thickness.begin(), state.thickness.end());
     for (std::size_t i = 0; i < state.active.size(); ++i) node_active_[i] = state.active[i];
     return;
   }
@@ -89,9 +90,10 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   }
   largest_corner_stiffness_ = 0.0;
   smallest_corner_stiffness_ = 1e300;
+  if (!thickness_.empty()) node_thickness_.resize(nodes_.size());
   for (Index s = 0; s < node_count(); ++s) {
     double sum = 0.0;
-    double mean = 0.0;
+    double mean = 0.0, thick = 0.0;
     int around = 0;
     for (const Index f : surface_.facets_at(s)) {
       if (!active(f) && state.node_active.empty()) continue;
@@ -101,6 +103,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
       sum += share * facet_stiffness(f);
       if (!active(f)) continue;
       mean += facet_stiffness(f);
+      thick += thickness(f);
       ++around;
     }
     node_active_[at(s)] = state.node_active.empty() ? (around > 0 ? 1 : 0) : state.node_active[at(s)];
@@ -108,7 +111,27 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     corner_stiffness_[at(s)] = around > 0 ? mean / around : 0.0;
     largest_corner_stiffness_ = std::max(largest_corner_stiffness_, corner_stiffness_[at(s)]);
     if (around > 0) smallest_corner_stiffness_ = std::min(smallest_corner_stiffness_, corner_stiffness_[at(s)]);
+    if (!thickness_.empty()) node_thickness_[at(s)] = around > 0 ? thick / around : 0.0;
   }
+}
+
+double Side::thickness_at(Index f, const std::array<double, 4>& weight) const {
+  if (node_thickness_.empty()) return 0.0;
+  const std::array<Index, 4>& local = surface_.local()[at(f)];
+  double sum = 0.0, smallest = 1e300, largest = 0.0;
+  for (std::size_t k = 0; k < (local[2] == local[3] ? 3U : 4U); ++k) {
+    const double t = node_thickness_[at(local[k])];
+    sum += weight[k] * t;
+    smallest = std::min(smallest, t);
+    largest = std::max(largest, t);
+  }
+  return std::clamp(sum, smallest, largest);
+}
+
+double Side::largest_thickness() const {
+  double largest = 0.0;
+  for (const double t : node_thickness_) largest = std::max(largest, t);
+  return largest;
 }
 
 void Side::gather(std::span<const Vec3> x, std::size_t begin, std::size_t end) {

@@ -43,7 +43,11 @@ class Side {
   /// All corners are equally stiff, to rounding.
   [[nodiscard]] bool evenly_stiff() const { return smallest_corner_stiffness_ >= (1.0 - 1e-9) * largest_corner_stiffness_; }
   [[nodiscard]] double thickness(Index f) const { return thickness_.empty() ? 0.0 : thickness_[at(f)]; }
-  [[nodiscard]] bool has_thickness() const { return !thickness_.empty(); }
+  /// Thickness averaged at a node over its facets (of nodes without facets: their own); 0: none.
+  [[nodiscard]] double node_thickness(Index s) const { return node_thickness_.empty() ? 0.0 : node_thickness_[at(s)]; }
+  /// The same interpolated over a facet; beyond its sides within its corners' values.
+  [[nodiscard]] double thickness_at(Index f, const std::array<double, 4>& weight) const;
+  [[nodiscard]] double largest_thickness() const;
 
   /// Bit e: side e of the facet is a free border.
   [[nodiscard]] std::uint8_t borders(Index f) const { return borders_[at(f)]; }
@@ -75,7 +79,7 @@ class Side {
   std::vector<Index> nodes_;
   std::vector<Index> listed_;  ///< facet number as the host listed it
   std::vector<std::uint8_t> active_, node_active_, borders_;
-  std::vector<double> facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_;
+  std::vector<double> facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_, node_thickness_;
   double largest_corner_stiffness_ = 0.0, smallest_corner_stiffness_ = 0.0;  ///< of active corners
   std::vector<Vec3> x_;
 };

@@ -18,15 +18,16 @@ inline Measure brute_force(const Side& surface, const Vec3& x, const HeldBy& hel
   bool in_front = false;
   if (held.facet != no_index) {
     best = signed_measure(surface, held.facet, closest_point(extended(surface, held.facet, held.strip), x), x);
-    smallest = best.closest.squared_distance;
+    smallest = std::sqrt(best.closest.squared_distance);
     in_front = best.distance >= 0.0;
   }
   for (Index f = 0; f < surface.facet_count(); ++f) {
     const ClosestPoint c = closest_point(extended(surface, f, held.strip), x);
-    if (c.squared_distance >= smallest) continue;
+    const double distance = std::sqrt(c.squared_distance);
+    if (distance >= smallest) continue;
     const Measure m = signed_measure(surface, f, c, x);
     if (held.facet != no_index && !(dot(m.normal, held.normal) > -0.5 || (in_front && m.distance >= 0.0))) continue;
-    smallest = c.squared_distance;
+    smallest = distance;
     best = m;
   }
   return best;

@@ -41,8 +41,7 @@ class ListingTest : public ::testing::Test {
                 .instruction_set = "avx2",
                 .threads = 2,
                 .profile = "standard",
-                .interface_law = "constant",
-                .contact_ramps = {},
+                .interfaces = {"all:law=constant"},
                 .hash_every = 0,
                 .resumed = {},
                 .decks = {"decks/scene_0000.rad"},
@@ -68,7 +67,7 @@ TEST_F(ListingTest, TheHeaderSaysWhatRunsAndWhatIsLeftOut) {
   const std::string text = slurp(folder_.listing());
   EXPECT_TRUE(has(text, "abut 1.2.3 (abc)\n"));
   EXPECT_TRUE(has(text, "Deck        decks/scene_0000.rad\n"));
-  EXPECT_TRUE(has(text, "profile standard, interface law constant, 2 threads, avx2, gcc 12"));
+  EXPECT_TRUE(has(text, "profile standard, 2 threads, avx2, gcc 12\nInterface   all:law=constant\n"));
   EXPECT_TRUE(has(text, "  scene_0000.rad:7: warning: /PART/1: something odd\n"));
   EXPECT_TRUE(has(text, "left out of the time history: PART HEAT\n"));
   EXPECT_TRUE(has(text, "left out of the animation: NODA/TEMP\n"));

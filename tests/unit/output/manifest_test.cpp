@@ -34,7 +34,7 @@ TEST_F(ManifestTest, ARunThatWasKilledLeavesWhatItWas) {
   EXPECT_EQ(j["abut"]["version"], "1.2.3");
   EXPECT_EQ(j["settings"]["profile"], "reference");
   EXPECT_EQ(j["settings"]["threads"], 3);
-  EXPECT_TRUE(j["settings"]["interface_law"].is_null());
+  EXPECT_TRUE(j["settings"]["interfaces"].empty());
   EXPECT_EQ(j["decks"], json({"a_0000.rad", "a_0001.rad"}));
   EXPECT_EQ(j["model"]["nodes"], 12);
   EXPECT_EQ(j["model"]["bricks"], 3);

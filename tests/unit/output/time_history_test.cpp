@@ -166,8 +166,9 @@ TEST_F(TimeHistoryTest, PartVariables) {
 }
 
 TEST_F(TimeHistoryTest, EveryInterfaceHasForcesImpulsesAndEnergiesAlsoWhenNoGroupNamesIt) {
-  scene_.interfaces[0] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, 13, 14, 15, 16, 0, 17, 0, no_index, {}, {}};
-  scene_.interfaces[1] = {{-1, -2, -3}, {-4, -5, -6}, {-7, -8, -9}, {-10, -11, -12}, -13, -14, -15, -16, 0, 18, 0, no_index, {}, {}};
+  scene_.interfaces[0] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, 13, 14, 15, 16, 0, 17, 0, no_index, 0.1, 0.2, {0.75, 0.5}, {}, {}};
+  scene_.interfaces[1] = {{-1, -2, -3}, {-4, -5, -6}, {-7, -8, -9}, {-10, -11, -12}, -13, -14, -15, -16, 0, 18, 0,
+                          no_index,     0.3,          0.4,          {1.0, 0.25},     {},  {}};
   scene_.model.th_requests.push_back(request(model::ThKind::inter, 3, 0, {"FNX", "FTZ", "CE_ELAST"}));
   const auto r = row();
   EXPECT_EQ(r.at("INTER/3/FNX"), 1);
@@ -183,6 +184,11 @@ TEST_F(TimeHistoryTest, EveryInterfaceHasForcesImpulsesAndEnergiesAlsoWhenNoGrou
   }
   EXPECT_EQ(r.at("INTER/3/NC"), 17);
   EXPECT_EQ(r.at("INTER/7/NC"), 18);
+  EXPECT_EQ(r.at("INTER/3/APPR"), 0.2);  // the largest since the row before
+  EXPECT_EQ(r.at("INTER/3/FACE1"), 0.75);
+  EXPECT_EQ(r.at("INTER/3/FACE2"), 0.5);
+  EXPECT_EQ(r.at("INTER/7/FACE2"), 0.25);
+  EXPECT_FALSE(r.contains("INTER/7/FACE1"));  // TYPE5 holds nodes
 }
 
 TEST_F(TimeHistoryTest, WallsBodiesAndSections) {

@@ -1,0 +1,98 @@
+#include "cycle/contact_facing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::cycle {
+
+namespace {
+
+constexpr double moved_share = 0.25;  // of a facet: what turns a facet by a right angle moves a node of it by more
+
+std::vector<Index> nodes_of(const contact::InspectionInput& input) {
+  std::vector<Index> nodes;
+  for (const contact::InspectedSide& side : input.side) {
+    for (const contact::Facet& f : side.facets) nodes.insert(nodes.end(), f.node.begin(), f.node.end());
+    nodes.insert(nodes.end(), side.nodes.begin(), side.nodes.end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+/// Mean size of the facets of the finer surface.
+double size_of(const contact::InspectionInput& input) {
+  double size = 1e300;
+  for (const contact::InspectedSide& side : input.side) {
+    if (side.facets.empty()) continue;
+    double sum = 0.0;
+    for (const contact::Facet& f : side.facets) {
+      const auto at = [&](std::size_t k) { return input.x[static_cast<std::size_t>(f.node[k])]; };
+      sum += std::sqrt(0.5 * norm(cross(at(2) - at(0), at(3) - at(1))));
+    }
+    size = std::min(size, sum / static_cast<double>(side.facets.size()));
+  }
+  return size;
+}
+
+bool has_moved(std::span<const Index> nodes, std::span<const Vec3> seen, std::span<const Vec3> x, double limit) {
+  if (seen.size() != nodes.size()) return true;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (squared_norm(x[static_cast<std::size_t>(nodes[k])] - seen[k]) > limit * limit) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ContactFacing::ContactFacing(const model::Model& model) : interfaces_(model.interfaces.size()) {
+  const std::span<const Vec3> x(model.node_x);
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    const model::Interface& card = model.interfaces[i];
+    if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
+    Watched& w = interfaces_[i];
+    w.geometry = std::make_unique<init::InspectedInterface>(model, card, x);
+    const contact::InspectionInput input = w.geometry->input(x);
+    w.nodes = nodes_of(input);
+    w.limit = moved_share * size_of(input);
+  }
+}
+
+void ContactFacing::look(const state::State& state, std::span<InterfaceResult> results) {
+  const std::span<const Vec3> x(state.x);
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    Watched& w = interfaces_[i];
+    if (w.geometry == nullptr) continue;
+    if (!w.seen.empty() && state.times.cycle < w.cycle + cycles_between) continue;
+    const bool decided = !std::isnan(results[i].facing[0]) || !std::isnan(results[i].facing[1]);
+    if (decided && !has_moved(w.nodes, w.seen, x, w.limit)) continue;
+    w.cycle = state.times.cycle;
+    w.seen.clear();
+    for (const Index n : w.nodes) w.seen.push_back(x[static_cast<std::size_t>(n)]);
+    contact::InspectionInput input = w.geometry->input(x);
+    std::array<std::vector<std::int8_t>, 2> outward;
+    if (results[i].in_contact > 0) {
+      // Surfaces that feel each other are taken as surfaces of bodies: a penetration is an overlap, not a turned normal.
+      for (std::size_t k = 0; k < 2; ++k) {
+        outward[k].assign(input.side[k].outward.begin(), input.side[k].outward.end());
+        std::replace(outward[k].begin(), outward[k].end(), std::int8_t{0}, std::int8_t{1});
+        input.side[k].outward = outward[k];
+      }
+    }
+    const std::array<contact::Facing, 2> facing = contact::facing(input);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double fraction = facing[k].fraction();
+      if (!std::isnan(fraction)) results[i].facing[k] = fraction;
+    }
+  }
+}
+
+void ContactFacing::persist(state::Archive& a) {
+  a.each(interfaces_, [&a](Watched& w) {
+    a.growing(w.seen);
+    a(w.cycle);
+    if (!w.seen.empty() && w.seen.size() != w.nodes.size()) throw state::ArchiveError("the checkpoint does not fit the model (facing)");
+  });
+}
+
+}  // namespace abut::cycle

@@ -1,0 +1,43 @@
+// Share of each contact surface that faces the other one, while the run goes on (docs/findings/index.md, "The facing rule"; T33).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "abut/results.hpp"
+#include "init/contact_inspection.hpp"
+#include "model/model.hpp"
+#include "state/state.hpp"
+
+namespace abut::cycle {
+
+/// Looks at the surfaces of TYPE3 and TYPE5 again when a node of them has moved by a quarter of a facet since, or nothing is decided yet,
+/// at least `cycles_between` cycles later: a look costs about as much as some cycles. What it says depends on positions and cycle numbers
+/// only.
+class ContactFacing {
+ public:
+  static constexpr std::int64_t cycles_between = 50;
+
+  ContactFacing() = default;
+  explicit ContactFacing(const model::Model& model);
+  /// Brings InterfaceResult::facing of all interfaces up to date where a look is due. While nodes touch, surfaces that have passed each
+  /// other by less than half a facet count as undecided there, not as turned.
+  void look(const state::State& state, std::span<InterfaceResult> results);
+  void persist(state::Archive& a);
+
+ private:
+  struct Watched {
+    std::unique_ptr<init::InspectedInterface> geometry;  ///< none of TYPE7, whose normals do not matter
+    double limit = 0.0;                                  ///< motion that asks for another look
+    std::vector<Index> nodes;                            ///< of both surfaces, without repetition
+    std::vector<Vec3> seen;                              ///< their positions at the last look; empty: none yet
+    std::int64_t cycle = 0;                              ///< of the last look
+  };
+  std::vector<Watched> interfaces_;
+};
+
+}  // namespace abut::cycle
