@@ -33,7 +33,7 @@ class Oracle {
             double dt, bool first, Truth& t) const {
     const bool was_held = t.held;
     // Held: the nearest among facets that push in about the same direction. Free: the nearest of all.
-    const double strip = border_strip + (t.from_front ? border_widening : 0.0);
+    const double strip = border_strip + (was_held && t.from_front ? border_widening : 0.0);
     Measure m = brute_force(surface, x, was_held ? HeldBy{t.facet, t.normal, strip} : HeldBy{});
     const bool was_ignored = t.ignored;
     const bool here = !m.closest.beyond;  // at the outer end of a strip there is none
@@ -51,16 +51,17 @@ class Oracle {
     double p = full - t.offset;
     bool meets = here && p > 0.0 && !(t.offset > 0.0 && t.offset >= full);
     bool was_in_front = true;  // a step ago, as seen along the normal of now
-    if (meets && !was_held) {
+    if (p > 0.0 && !was_held) {
       Vec3 relative = v;
       for (std::size_t c = 0; c < 4; ++c) { relative -= m.closest.weight[c] * v_surface[at(surface.surface().local()[at(m.facet)][c])]; }
       const double a_step_ago = m.distance - dt * dot(relative, m.normal);
       was_in_front = a_step_ago >= -1e-10 * length_[at(m.facet)];
-      if (m.distance < 0.0 && -m.distance <= limit && dt > 0.0 && -a_step_ago > limit) t.ignored = true;
+      if (meets && m.distance < 0.0 && -m.distance <= limit && dt > 0.0 && -a_step_ago > limit) t.ignored = true;
       if (m.distance < 0.0 && (-m.distance > limit || t.ignored)) meets = false;
     }
     // From in front to deeper than that in one step.
     t.crossed = false;
+    bool lost = false;
     if (!meets && !was_held && !was_ignored && t.offset == 0.0 && dt > 0.0) {
       Index hit = no_index;
       double earliest = 2.0;
@@ -80,13 +81,22 @@ class Oracle {
           meets = true;
           t.crossed = true;
           t.ignored = false;
+        } else {
+          lost = caught.closest.beyond;  // through the surface and over its border in one step
         }
       }
     }
     if (!was_held) t.from_front = was_in_front || t.crossed || first;
-    t.touches = meets && !faded(surface, m, t.from_front);
+    // Beyond the end of the nearest strip another facet may still hold the node.
+    const bool beside = !here && !lost && p > 0.0 && !t.ignored && t.offset == 0.0 && (was_held || -m.distance <= limit);
+    t.touches = (meets && !faded(surface, m, m.distance, t.from_front)) ||
+                ((meets || beside) && stored_elsewhere(surface, x, m, p, strip, was_held, t.from_front));
     t.held = t.touches;
     t.penetration = t.touches ? p : 0.0;
+    if (t.touches && beside) {  // as the strips of a held node show it
+      const Patch wide = extended(surface, m.facet, border_strip + (t.from_front ? border_widening : 0.0));
+      t.penetration = std::max(0.0, gap_ - t.offset - signed_measure(surface, m.facet, closest_point(wide, x), x).distance);
+    }
     if (!t.held) return;
     t.facet = m.facet;
     t.normal = m.normal;
@@ -97,10 +107,28 @@ class Oracle {
   Initial initial_;
   std::vector<double> length_;
 
+  /// Section 3: a facet that is further by D on the same side stores kappa phi(P - D (1 + P/delta)), delta a quarter of its length; strips
+  /// widen with the depth behind the nearest.
+  [[nodiscard]] bool stored_elsewhere(const Side& surface, const Vec3& x, const Measure& nearest, double p, double strip, bool was_held,
+                                      bool from_front) const {
+    double reach = was_held ? 1e300 : gap_;
+    for (const double length : length_) reach = std::max(reach, depth_limit_ > 0.0 ? depth_limit_ : 0.5 * length);
+    for (Index f = 0; f < surface.facet_count(); ++f) {
+      if (f == nearest.facet) continue;
+      const ClosestPoint c = closest_point(extended(surface, f, strip), x);
+      if (c.beyond || std::sqrt(c.squared_distance) > reach) continue;
+      const Measure m = signed_measure(surface, f, c, x);
+      if (m.distance * nearest.distance < 0.0 || dot(m.normal, nearest.normal) < -0.5) continue;
+      const double further = std::max(0.0, std::abs(m.distance) - std::abs(nearest.distance));
+      if (p - further * (1.0 + p / (0.25 * length_[at(f)])) > 0.0 && !faded(surface, m, nearest.distance, from_front)) return true;
+    }
+    return false;
+  }
+
   /// T = 0: further beyond a free border than a fifth of a side and w(depth).
-  [[nodiscard]] bool faded(const Side& surface, const Measure& m, bool from_front) const {
+  [[nodiscard]] bool faded(const Side& surface, const Measure& m, double distance, bool from_front) const {
     const Patch patch = surface.patch(m.facet);
-    const double x = from_front ? std::max(0.0, -m.distance) / length_[at(m.facet)] : 0.0;
+    const double x = from_front ? std::max(0.0, -distance) / length_[at(m.facet)] : 0.0;
     const double w = x < 0.1 ? 5 * x * x : x < 0.65 ? x - 0.05 : x < 1.05 ? 0.8 - 1.25 * (1.05 - x) * (1.05 - x) : 0.8;
     const double s = m.closest.s, t = m.closest.t;
     std::array<double, 4> over{-0.5 * (t + 1), 0.5 * (s - 1), 0.5 * (t - 1), -0.5 * (s + 1)};  // of sides 0 to 3, in lengths of the side
