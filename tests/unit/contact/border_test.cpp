@@ -28,6 +28,35 @@ Options still(double gap) {
   return o;
 }
 
+// Forces where the host stands against minus the gradient of what is stored, by central differences: the largest difference over the
+// largest force. `make` gives an interface like `walk`. Nodes without a force may be left out.
+template <class Make>
+double off_the_gradient(const Make& make, const Interface& walk, const Host& host, double d, bool only_loaded) {
+  const auto history = walk.history();
+  const auto stored = [&](const std::vector<Vec3>& at) {
+    Interface probe = make();
+    probe.restore(history);
+    Host h = host;
+    h.x = at;
+    h.contact(probe);
+    return h;
+  };
+  const Host here = stored(host.x);
+  double scale = 0.0, worst = 0.0;
+  for (const Vec3& f : here.f) scale = std::max(scale, norm(f));
+  for (std::size_t k = 0; k < host.x.size(); ++k) {
+    if (only_loaded && squared_norm(here.f[k]) == 0.0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<Vec3> plus = host.x, minus = host.x;
+      plus[k][axis] += d;
+      minus[k][axis] -= d;
+      const double slope = (stored(plus).last.elastic - stored(minus).last.elastic) / (2 * d);
+      worst = std::max(worst, std::abs(here.f[k][axis] + slope) / scale);
+    }
+  }
+  return worst;
+}
+
 // A node that came through the front lies deep behind the widened strip of a border: its force, and those on the facet's corners, are minus
 // the gradient of what is stored.
 TEST(Border, force_in_a_widened_strip_is_the_gradient) {
@@ -57,28 +86,7 @@ TEST(Border, force_in_a_widened_strip_is_the_gradient) {
           host.place(walk, x);
         }
         if (host.last.in_contact == 0) continue;  // beyond the end of this depth's strip
-        const auto history = walk.history();
-        const auto stored = [&](const std::vector<Vec3>& at) {
-          Interface probe = make();
-          probe.restore(history);
-          Host h = host;
-          h.x = at;
-          h.contact(probe);
-          return h;
-        };
-        const Host here = stored(host.x);
-        double scale = 0.0;
-        for (const Vec3& f : here.f) scale = std::max(scale, norm(f));
-        constexpr double d = 1e-6;
-        for (std::size_t k = 0; k < host.x.size(); ++k) {
-          for (int axis = 0; axis < 3; ++axis) {
-            std::vector<Vec3> plus = host.x, minus = host.x;
-            plus[k][axis] += d;
-            minus[k][axis] -= d;
-            const double slope = (stored(plus).last.elastic - stored(minus).last.elastic) / (2 * d);
-            worst = std::max(worst, std::abs(here.f[k][axis] + slope) / scale);
-          }
-        }
+        worst = std::max(worst, off_the_gradient(make, walk, host, 1e-6, false));
         ++looked;
       }
     }
@@ -124,31 +132,7 @@ TEST(Border, force_of_a_facet_that_stores_more_is_the_gradient) {
           host.place(walk, x);
           const auto loaded = std::count_if(host.f.begin(), host.f.end(), [](const Vec3& f) { return squared_norm(f) > 0.0; });
           if (host.last.in_contact == 0 || loaded <= 5) continue;  // only the nearest facet acts
-          const auto history = walk.history();
-          const auto stored = [&](const std::vector<Vec3>& at) {
-            Interface probe = make();
-            probe.restore(history);
-            Host h = host;
-            h.x = at;
-            h.contact(probe);
-            return h;
-          };
-          const Host here = stored(host.x);
-          double scale = 0.0;
-          for (const Vec3& f : here.f) scale = std::max(scale, norm(f));
-          double wrong = 0.0;
-          constexpr double d = 1e-7;
-          for (std::size_t k = 0; k < host.x.size(); ++k) {
-            if (squared_norm(here.f[k]) == 0.0) continue;
-            for (int axis = 0; axis < 3; ++axis) {
-              std::vector<Vec3> plus = host.x, minus = host.x;
-              plus[k][axis] += d;
-              minus[k][axis] -= d;
-              const double slope = (stored(plus).last.elastic - stored(minus).last.elastic) / (2 * d);
-              wrong = std::max(wrong, std::abs(here.f[k][axis] + slope) / scale);
-            }
-          }
-          worst = std::max(worst, wrong);
+          worst = std::max(worst, off_the_gradient(make, walk, host, 1e-7, true));
           ++looked;
         }
       }
