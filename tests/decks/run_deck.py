@@ -12,8 +12,6 @@ Limits, as fractions of the largest energy term so far: |GLOBAL/LEDGER| <= 0.002
 while no interface is in contact and <= 0.02 while one is; `contact`: |GLOBAL/CX| <= 0.01, and <= 0.002
 behind the last row in which one is in contact.
 
---known-error E puts E in the place of both 0.01: for a deck that is known to miss them (CHANGELOG, known limits).
-
 The decks are those of examples/decks and of the folder ABUT_DECKS (default ../shared/decks beside the source tree).
 Exit status 0 passed, 1 failed, 77 the deck is not there (CTest: skipped). Standard library only.
 """
@@ -74,7 +72,7 @@ def made_share(history):
     return shares
 
 
-def energy(history, with_made=False, known_error=None):
+def energy(history, with_made=False):
     """[(what, worst value, time, limit, passed)]"""
     for name in ("GLOBAL/LEDGER", "GLOBAL/ERR"):
         if name not in history.column:
@@ -83,22 +81,22 @@ def energy(history, with_made=False, known_error=None):
     rows = range(len(contact))
     cases = [
         ("LEDGER", history.column["GLOBAL/LEDGER"], list(rows), LEDGER_LIMIT),
-        ("ERR outside contact", history.column["GLOBAL/ERR"], [row for row in rows if not contact[row]], known_error or ERROR_LIMIT),
+        ("ERR outside contact", history.column["GLOBAL/ERR"], [row for row in rows if not contact[row]], ERROR_LIMIT),
         ("ERR during contact", history.column["GLOBAL/ERR"], [row for row in rows if contact[row]], ERROR_LIMIT_IN_CONTACT),
     ]
     if with_made:
         made = made_share(history)
         parted = max((row for row in rows if contact[row]), default=-1) + 1
-        cases += [("CX up to separation", made, list(rows[:parted]), known_error or MADE_LIMIT_IN_CONTACT),
+        cases += [("CX up to separation", made, list(rows[:parted]), MADE_LIMIT_IN_CONTACT),
                   ("CX after separation", made, list(rows[parted:]), MADE_LIMIT)]
     for what, values, chosen, limit in cases:
         value, row = worst(values, chosen)
         yield what, value, (history.time[row] if row is not None else math.nan), limit, value <= limit
 
 
-def check_energy(history, with_made, known_error):
+def check_energy(history, with_made):
     passed = True
-    for what, value, time, limit, good in energy(history, with_made, known_error):
+    for what, value, time, limit, good in energy(history, with_made):
         print(f"{what:<22}{value:>12.3e} at {time:<12.5g} limit {limit:g}{'' if good else '  outside'}")
         passed = passed and good
     if len(history.time) < 2:
@@ -123,7 +121,6 @@ def main():
     parser.add_argument("--keep", help="keep the run folder here")
     parser.add_argument("--tolerance", type=float, default=0.001)
     parser.add_argument("--strict", action="store_true")
-    parser.add_argument("--known-error", type=float)
     args = parser.parse_args()
 
     folder = deck_files.folder_of(args.name)
@@ -142,7 +139,7 @@ def main():
             os.makedirs(out, exist_ok=True)
             history = run(args.abut, args.name, "reference" if args.mode == "reference" else "standard", out, args.threads)
         if args.mode != "reference":
-            return check_energy(history, args.mode == "contact", args.known_error)
+            return check_energy(history, args.mode == "contact")
         return check_reference(history, folder, args.name, args.tolerance, args.strict)
     except (RuntimeError, ValueError, OSError) as error:
         print(error)

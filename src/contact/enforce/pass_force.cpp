@@ -262,7 +262,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (after.reckoned != 0) {
     after.last = {touch.weight, touch.facet};
     const Vec3 step = host.dt * (motion.rate * touch.normal + motion.tangential_velocity);
-    if (!fresh || closest()) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
+    // A first force of the law is made for what it stores; over a fold it is not, and the difference is in the account.
+    if (!fresh || over_fold) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
   }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {

@@ -57,6 +57,24 @@ double off_the_gradient(const Make& make, const Interface& walk, const Host& hos
   return worst;
 }
 
+// A sheet of 4 x 4 facets, half of them four times as stiff, and a free node.
+struct UnevenSheet {
+  Host host;
+  std::vector<Facet> facets;
+  std::vector<double> stiffness;
+  std::size_t node = 0;
+
+  explicit UnevenSheet(const std::function<double(double, double)>& height) : facets(grid(host, 4, 4, -1.5, 1.5, -1.5, 1.5, height)) {
+    for (std::size_t f = 0; f < facets.size(); ++f) stiffness.push_back(f % 4 < 2 ? 1.0 : 4.0);
+    node = static_cast<std::size_t>(host.add({}, 1.0));
+  }
+  [[nodiscard]] Interface make(const Options& o) const {
+    Interface i = Interface::nodes_to_surface({static_cast<Index>(node)}, {1.0}, Surface(facets), o);
+    i.set_surface(1, {stiffness, {}, {}});
+    return i;
+  }
+};
+
 // A node that came through the front lies deep behind the widened strip of a border: its force, and those on the facet's corners, are minus
 // the gradient of what is stored.
 TEST(Border, force_in_a_widened_strip_is_the_gradient) {
@@ -110,18 +128,12 @@ TEST(Border, force_of_a_facet_that_stores_more_is_the_gradient) {
     for (const Law law : {Law::constant, Law::stiffening}) {
       if (gap == 0.0 && law == Law::stiffening) continue;
       for (const auto& height : shapes) {
-        Host host;
-        const auto facets = grid(host, 4, 4, -1.5, 1.5, -1.5, 1.5, height);
-        std::vector<double> stiffness(facets.size());
-        for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 4 < 2 ? 1.0 : 4.0;
-        const auto n = static_cast<std::size_t>(host.add({}, 1.0));
+        UnevenSheet sheet(height);
+        Host& host = sheet.host;
+        const std::size_t n = sheet.node;
         Options o = still(gap);
         o.rules.law = law;
-        const auto make = [&] {
-          Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), o);
-          i.set_surface(1, {stiffness, {}, {}});
-          return i;
-        };
+        const auto make = [&] { return sheet.make(o); };
         Interface walk = make();
         std::vector<Vec3> x = host.x;
         for (int step = 0; step < 3000; ++step) {
@@ -154,19 +166,16 @@ TEST(Border, stored_energy_is_the_largest_of_any_facet) {
   double worst = 0.0;
   int compared = 0, other = 0;
   for (const auto& height : shapes) {
-    Host host;
-    const auto facets = grid(host, 4, 4, -1.5, 1.5, -1.5, 1.5, height);
-    std::vector<double> stiffness(facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 4 < 2 ? 1.0 : 4.0;
-    const auto n = static_cast<std::size_t>(host.add({}, 1.0));
+    UnevenSheet sheet(height);
+    Host& host = sheet.host;
+    const std::size_t n = sheet.node;
     for (int shot = 0; shot < 6000; ++shot) {
       const double px = shot % 2 == 0 ? 0.75 * (shot % 3 - 1) + 0.02 * u(random) : 1.7 * u(random), py = 1.7 * u(random);
       host.x[n] = {px, py, height(px, py) + 0.1 + 0.09 * u(random)};
-      Interface i = Interface::nodes_to_surface({static_cast<Index>(n)}, {1.0}, Surface(facets), still(gap));
-      i.set_surface(1, {stiffness, {}, {}});
+      Interface i = sheet.make(still(gap));
       host.contact(i);
-      Side side(Surface(facets), true);
-      side.set({stiffness, {}, {}}, false);
+      Side side(Surface(sheet.facets), true);
+      side.set({sheet.stiffness, {}, {}}, false);
       side.gather(host.x);
       // The nearest point, and of every facet T, K and P*; a free node in front: strips are not widened.
       std::vector<Measure> all;
