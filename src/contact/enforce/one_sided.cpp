@@ -35,6 +35,7 @@ void check(const Options& o) {
 
 // Sums over nodes run over pieces of so many nodes, then over the pieces: their order does not depend on threads.
 constexpr std::size_t piece = 512;
+static_assert(piece % SideLoads::block == 0);
 std::size_t pieces(std::size_t nodes) { return (nodes + piece - 1) / piece; }
 
 bool canonical(const Options& o) { return o.rules.edges == Edges::closest; }
@@ -199,7 +200,19 @@ std::array<Motion, 2> OneSided::gather(const HostState& host) {
       const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
       const std::span<Vec3> before = std::span(loads_[k].x_before).subspan(begin, end - begin);
       if (!started_) std::copy(x.begin(), x.end(), before.begin());
-      parts[begin / piece] = {sum_of_motions(x, before), largest_motion(x, before, common[0], common[1])};
+      MotionPart& part = parts[begin / piece];
+      part = {sum_of_motions(x, before), {}};
+      for (std::size_t b = begin; b < end; b += SideLoads::block) {
+        const std::size_t nodes = std::min(SideLoads::block, end - b);
+        const TwoLargest last = largest_motion(x.subspan(b - begin, nodes), before.subspan(b - begin, nodes), common[0], common[1]);
+        double coming = 0.0;  // this side is held by the other
+        for (std::size_t s = b; s < b + nodes; ++s) {
+          coming = std::max(coming, squared_norm(host.dt * host.v[at(side_[k].nodes()[s])] - common[1 - k]));
+        }
+        loads_[k].squared_motion[b / SideLoads::block] = std::max(k == 0 ? last.from_b : last.from_a, coming);
+        part.largest.from_a = std::max(part.largest.from_a, last.from_a);
+        part.largest.from_b = std::max(part.largest.from_b, last.from_b);
+      }
     });
     Vec3 sum{};
     for (const MotionPart& part : parts) {
