@@ -45,7 +45,8 @@ bool has_moved(std::span<const Index> nodes, std::span<const Vec3> seen, std::sp
 
 }  // namespace
 
-ContactFacing::ContactFacing(const model::Model& model) : interfaces_(model.interfaces.size()) {
+ContactFacing::ContactFacing(const model::Model& model)
+    : time_between_(model.controls.t_end / looks), interfaces_(model.interfaces.size()) {
   const std::span<const Vec3> x(model.node_x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     const model::Interface& card = model.interfaces[i];
@@ -63,10 +64,11 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     Watched& w = interfaces_[i];
     if (w.geometry == nullptr) continue;
-    if (!w.seen.empty() && state.times.cycle < w.cycle + cycles_between) continue;
+    if (!w.seen.empty() && (state.times.cycle < w.cycle + cycles_between || state.times.t < w.time + time_between_)) continue;
     const bool decided = !std::isnan(results[i].facing[0]) || !std::isnan(results[i].facing[1]);
     if (decided && !has_moved(w.nodes, w.seen, x, w.limit)) continue;
     w.cycle = state.times.cycle;
+    w.time = state.times.t;
     w.seen.clear();
     for (const Index n : w.nodes) w.seen.push_back(x[static_cast<std::size_t>(n)]);
     contact::InspectionInput input = w.geometry->input(x);
@@ -79,7 +81,7 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
         input.side[k].outward = outward[k];
       }
     }
-    const std::array<contact::Facing, 2> facing = contact::facing(input);
+    const std::array<contact::Facing, 2> facing = w.watch.look(input);
     for (std::size_t k = 0; k < 2; ++k) {
       const double fraction = facing[k].fraction();
       if (!std::isnan(fraction)) results[i].facing[k] = fraction;
@@ -91,6 +93,7 @@ void ContactFacing::persist(state::Archive& a) {
   a.each(interfaces_, [&a](Watched& w) {
     a.growing(w.seen);
     a(w.cycle);
+    a(w.time);
     if (!w.seen.empty() && w.seen.size() != w.nodes.size()) throw state::ArchiveError("the checkpoint does not fit the model (facing)");
   });
 }

@@ -156,7 +156,7 @@ void Cycle::contact_forces(StepLimits& limits) {
       limits.interface_controller = {StepController::Kind::interface, model_.interfaces[static_cast<std::size_t>(i.model_index)].id};
     }
   }
-  if (history_due_) contact_facing_.look(state_, interface_results_);
+  contact_facing_.look(state_, interface_results_);
   if (releases_) release_boundary_conditions();
 }
 

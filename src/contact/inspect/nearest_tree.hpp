@@ -28,6 +28,19 @@ class NearestTree {
     if (!boxes.empty()) split(boxes, 0, static_cast<Index>(boxes.size()));
   }
 
+  /// The same items elsewhere.
+  void refit(const std::vector<Bounds>& boxes) {
+    for (std::size_t n = nodes_.size(); n-- > 0;) {  // children have higher numbers
+      Node& node = nodes_[n];
+      node.bounds = {};
+      for (Index k = node.first; k < node.first + node.count; ++k)
+        node.bounds.include(boxes[static_cast<std::size_t>(items_[static_cast<std::size_t>(k)])]);
+      if (node.count > 0) continue;
+      node.bounds.include(nodes_[static_cast<std::size_t>(node.first)].bounds);
+      node.bounds.include(nodes_[static_cast<std::size_t>(node.second)].bounds);
+    }
+  }
+
   /// Visits items until none can be nearer than sqrt(limit); `visit(item, limit)` lowers the limit when it finds something nearer.
   template <class Visit>
   void search(const Vec3& from, double limit, Visit&& visit) const {
