@@ -195,30 +195,24 @@ std::array<Motion, 2> OneSided::gather(const HostState& host) {
     if (committed_) side_[k].swap_positions(loads_[k].x_before);
     std::vector<MotionPart>& parts = parts_[k];
     parts.resize(pieces(at(side_[k].node_count())));
+    MotionArgs args{&side_[k].x().data()->x, &loads_[k].x_before.data()->x,  &host.v.data()->x, side_[k].nodes().data(), host.dt, {},
+                    static_cast<int>(1 - k), loads_[k].squared_motion.data()};
+    for (int c = 0; c < 2; ++c) {
+      for (int axis = 0; axis < 3; ++axis) args.common[c][axis] = common[static_cast<std::size_t>(c)][axis];
+    }
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
       side_[k].gather(host.x, begin, end);
-      const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
-      const std::span<Vec3> before = std::span(loads_[k].x_before).subspan(begin, end - begin);
-      if (!started_) std::copy(x.begin(), x.end(), before.begin());
-      MotionPart& part = parts[begin / piece];
-      part = {sum_of_motions(x, before), {}};
-      for (std::size_t b = begin; b < end; b += SideLoads::block) {
-        const std::size_t nodes = std::min(SideLoads::block, end - b);
-        const TwoLargest last = largest_motion(x.subspan(b - begin, nodes), before.subspan(b - begin, nodes), common[0], common[1]);
-        double coming = 0.0;  // this side is held by the other
-        for (std::size_t s = b; s < b + nodes; ++s) {
-          coming = std::max(coming, squared_norm(host.dt * host.v[at(side_[k].nodes()[s])] - common[1 - k]));
-        }
-        loads_[k].squared_motion[b / SideLoads::block] = std::max(k == 0 ? last.from_b : last.from_a, coming);
-        part.largest.from_a = std::max(part.largest.from_a, last.from_a);
-        part.largest.from_b = std::max(part.largest.from_b, last.from_b);
+      if (!started_) {
+        const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
+        std::copy(x.begin(), x.end(), loads_[k].x_before.begin() + static_cast<std::ptrdiff_t>(begin));
       }
+      parts[begin / piece] = motion_kernel()(args, begin, end);
     });
     Vec3 sum{};
     for (const MotionPart& part : parts) {
-      sum += part.sum;
-      largest[k].from_a = std::max(largest[k].from_a, part.largest.from_a);
-      largest[k].from_b = std::max(largest[k].from_b, part.largest.from_b);
+      sum += Vec3{part.sum[0], part.sum[1], part.sum[2]};
+      largest[k].from_a = std::max(largest[k].from_a, part.largest[0]);
+      largest[k].from_b = std::max(largest[k].from_b, part.largest[1]);
     }
     largest[k] = {std::sqrt(largest[k].from_a), std::sqrt(largest[k].from_b)};
     if (!parts.empty() && host.dt > 0.0) mean_velocity_[k] = sum / (static_cast<double>(side_[k].node_count()) * host.dt);

@@ -14,6 +14,7 @@
 #include "contact/enforce/pair.hpp"
 #include "contact/search/candidates.hpp"
 #include "contact/search/incremental.hpp"
+#include "contact/search/motion_kernel.hpp"
 #include "contact/search/nearest.hpp"
 
 namespace abut::contact {
@@ -30,7 +31,7 @@ struct SideLoads {
   std::vector<Node> node;
   std::vector<Vec3> force_before, x_before;  ///< of the last committed step
   /// Per block of nodes: the largest square of a node's motions in the last and in the coming step, less the other side's mean motion.
-  static constexpr std::size_t block = 16;
+  static constexpr std::size_t block = MotionArgs::block;
   std::vector<double> squared_motion;
   /// Which of them can be other than zero: the loads of this step, the force of the last.
   static constexpr std::uint8_t now = 1, before = 2;
