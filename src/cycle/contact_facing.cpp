@@ -66,9 +66,9 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
     if (w.geometry == nullptr) continue;
     if (!w.seen.empty() && (state.times.cycle < w.cycle + cycles_between || state.times.t < w.time + time_between_)) continue;
     const bool decided = !std::isnan(results[i].facing[0]) || !std::isnan(results[i].facing[1]);
-    if (decided && !has_moved(w.nodes, w.seen, x, w.limit)) continue;
     w.cycle = state.times.cycle;
     w.time = state.times.t;
+    if (decided && !has_moved(w.nodes, w.seen, x, w.limit)) continue;
     w.seen.clear();
     for (const Index n : w.nodes) w.seen.push_back(x[static_cast<std::size_t>(n)]);
     contact::InspectionInput input = w.geometry->input(x);
