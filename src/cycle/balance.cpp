@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <type_traits>
 
 #include "cycle/cycle.hpp"
 
@@ -214,12 +215,8 @@ Snapshot Cycle::snapshot_of_cycle() {
     fill_contact_fields();
     fill_option_forces();
   } else if (!contact_normal_.empty()) {  // as large as half the state, and of use in few cycles
-    contact_normal_ = {};
-    contact_tangential_ = {};
-    contact_area_ = {};
-    contact_state_ = {};
-    option_force_ = {};
-    option_moment_ = {};
+    const auto release = [](auto&... values) { (std::remove_reference_t<decltype(values)>().swap(values), ...); };  // = {} keeps the memory
+    release(contact_normal_, contact_tangential_, contact_area_, contact_state_, option_force_, option_moment_);
   }
   Snapshot s = snapshot();
   s.history_due = history_due_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace abut::contact {
@@ -96,10 +97,8 @@ void Shape::move(const InspectedSide& side, std::span<const Vec3> x) {
 }
 
 void Shape::keep_connections() {
-  for (std::vector<Vec3>* v : {&centre_, &normal_}) *v = {};
-  area_ = {};
-  box_ = {};
-  shared_ = {};
+  const auto release = [](auto&... values) { (std::remove_reference_t<decltype(values)>().swap(values), ...); };  // = {} keeps the memory
+  release(centre_, normal_, area_, box_, shared_);
 }
 
 void Shape::measure() {
