@@ -29,17 +29,37 @@ double kept_share(const Options& options, double before, double now) {
 }  // namespace
 
 void SideLoads::resize(std::size_t nodes) {
-  node.resize(nodes);
-  for (std::vector<Vec3>* v : {&force_before, &x_before}) v->resize(nodes);
+  x_before.resize(nodes);
   loaded.resize(nodes);
   squared_motion.resize((nodes + block - 1) / block);
+  pages_.resize((nodes + page - 1) / page);
 }
 
 void SideLoads::clear(std::size_t begin, std::size_t end) {
   for (std::size_t s = begin; s < end; ++s) {
     if ((loaded[s] & now) == 0) continue;
-    node[s] = {};
+    Node& one = node(s);
+    const Vec3 force = one.force_before;
+    one = {};
+    one.force_before = force;
     loaded[s] &= before;
+  }
+}
+
+std::vector<Vec3> SideLoads::forces_before() const {
+  std::vector<Vec3> force(loaded.size());
+  for (std::size_t s = 0; s < loaded.size(); ++s) {
+    if (loaded[s] != 0) force[s] = node(s).force_before;
+  }
+  return force;
+}
+
+void SideLoads::set_forces_before(std::span<const Vec3> force) {
+  clear(0, loaded.size());  // an evaluation that was not committed leaves nothing behind
+  for (std::size_t s = 0; s < loaded.size(); ++s) {
+    if (loaded[s] == 0 && squared_norm(force[s]) == 0.0) continue;
+    load(static_cast<Index>(s)).force_before = force[s];
+    loaded[s] = now | before;
   }
 }
 
@@ -301,11 +321,10 @@ void Pass::add_reactions(const GroupSums& sums, const Side& surface, SideLoads& 
   for (const Reaction& r : sums.reactions) {
     const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
     for (std::size_t k = 0; k < 4; ++k) {
-      SideLoads::Node& node = surface_loads.node[at(corner[k])];
+      SideLoads::Node& node = surface_loads.load(corner[k]);
       node.reaction_normal += r.normal[k];
       node.reaction_tangential += r.weight[k] * r.tangential;
       node.reaction_stiffness += std::abs(r.weight[k]) * r.stiffness;
-      surface_loads.loaded[at(corner[k])] |= SideLoads::now;
     }
   }
 }
