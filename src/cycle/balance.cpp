@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "cycle/contact_area.hpp"
 #include "cycle/cycle.hpp"
 
 namespace abut::cycle {
@@ -183,7 +184,7 @@ void Cycle::fill_contact_fields() {
     i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
     i.contact.add_nodal_contact(contact_state_);
   }
-  contact_facets_.write(state_.x, interfaces_, contact_area_);
+  ContactArea(model_, interfaces_).write(state_.x, interfaces_, contact_area_);  // of use in few cycles
 }
 
 void Cycle::fill_option_forces() {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,15 +31,15 @@ class ContactFacing {
 
  private:
   struct Watched {
-    std::unique_ptr<init::InspectedInterface> geometry;  ///< none of TYPE7, whose normals do not matter
     contact::FacingWatch watch;
-    double limit = 0.0;        ///< motion that asks for another look
+    double limit = 0.0;        ///< motion that asks for another look; 0: TYPE7, whose normals do not matter
     std::vector<Index> nodes;  ///< of both surfaces, without repetition
     std::vector<Vec3> seen;    ///< their positions at the last look; empty: none yet
-    std::int64_t cycle = 0;    ///< of the last look
+    std::int64_t cycle = 0;    ///< in which it was last asked whether a look is due
     double time = 0.0;         ///< the same
   };
   double time_between_ = 0.0;
+  const model::Model* model_ = nullptr;
   std::vector<Watched> interfaces_;
 };
 

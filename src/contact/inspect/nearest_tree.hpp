@@ -26,6 +26,7 @@ class NearestTree {
     std::iota(items_.begin(), items_.end(), 0);
     nodes_.clear();
     if (!boxes.empty()) split(boxes, 0, static_cast<Index>(boxes.size()));
+    nodes_.shrink_to_fit();
   }
 
   /// The same items elsewhere.

@@ -74,6 +74,7 @@ Shape::Shape(const InspectedSide& side, std::span<const Vec3> x) : side_(side), 
   }
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  nodes_.shrink_to_fit();
   measure();
   if (!is_nodes()) connect();
   tree_.build(box_);
