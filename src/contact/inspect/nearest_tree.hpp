@@ -9,16 +9,6 @@
 
 namespace abut::contact {
 
-/// Squared distance of a point to a box; 0 inside.
-[[nodiscard]] inline double squared_distance(const Bounds& box, const Vec3& p) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double d = std::max({0.0, box.low[k] - p[k], p[k] - box.high[k]});
-    sum += d * d;
-  }
-  return sum;
-}
-
 class NearestTree {
  public:
   void build(const std::vector<Bounds>& boxes) {
