@@ -1,5 +1,5 @@
-// What a deck may say, but rarely means: materials in other units than /BEGIN, bodies held beside their centre of gravity, nodes that a
-// rigid wall does not stop.
+// What a deck may say, but rarely means: materials in other units than /BEGIN, walls on bodies beside their centre of gravity, nodes
+// that a rigid wall does not stop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,16 +42,10 @@ void speeds_of_sound(Context& c) {
   }
 }
 
-/// A main node that stays where it is and is held there carries the mass of its body as if it were the centre of gravity.
-void held_beside_the_centre(Context& c) {
+/// A main node that stays where it is and carries a moving wall carries the mass of its body as if it were the centre of gravity.
+void wall_beside_the_centre(Context& c) {
   const Model& m = *c.model;
   std::vector<bool> held(static_cast<std::size_t>(m.node_count()), false);
-  for (const BoundaryCondition& card : m.boundary_conditions) {
-    for (const Index n : card.nodes) held[static_cast<std::size_t>(n)] = true;
-  }
-  for (const ImposedMotion& card : m.imposed_motions) {
-    for (const Index n : card.nodes) held[static_cast<std::size_t>(n)] = true;
-  }
   for (const RigidWall& card : m.rigid_walls) {
     if (card.node != no_index) held[static_cast<std::size_t>(card.node)] = true;
   }
@@ -73,7 +67,7 @@ void held_beside_the_centre(Context& c) {
     const Vec3 centre = main + moment / mass;
     c.diagnostics->warning(
         "model.late_body", place_of(c, "RBODY", b.id),
-        fmt::format("its main node is held by a condition, an imposed motion or a wall and stays {:.4g} beside the centre of gravity: the "
+        fmt::format("its main node carries a moving wall and stays {:.4g} beside the centre of gravity: the "
                     "body then moves as if its mass were there, which makes energy when it turns; put node {} at {:.6g} {:.6g} {:.6g}",
                     norm(moment) / mass, m.node_id[static_cast<std::size_t>(b.main)], centre.x, centre.y, centre.z));
   }
@@ -116,7 +110,7 @@ void walls_and_bodies(Context& c) {
 
 void check_plausibility(Context& context) {
   speeds_of_sound(context);
-  held_beside_the_centre(context);
+  wall_beside_the_centre(context);
   walls_and_bodies(context);
 }
 

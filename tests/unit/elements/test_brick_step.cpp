@@ -117,8 +117,8 @@ TEST(BrickStep, BoundCoversInitialStress) {
   }
 }
 
-// Small strain keeps its geometry: of a large stress only its rotation enters the tangent, and the bound stays near the limit. Preloads of up
-// to half of the modulus; a third of uniaxial strain without lateral contraction or viscosity moves the bound by less than 2 %.
+// Small strain keeps its geometry: of a large stress only its rotation enters the tangent, and the bound stays near the limit. Preloads of
+// up to half of the modulus; a third of uniaxial strain without lateral contraction or viscosity moves the bound by less than 2 %.
 TEST(BrickStep, SmallStrainBoundCoversInitialStressAndFollowsItLittle) {
   Random random(14);
   for (int i = 0; i < 40; ++i) {

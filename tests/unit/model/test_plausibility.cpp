@@ -55,7 +55,7 @@ TEST(Plausibility, NodesOfARigidBodyPassAWall) {
                        "main node (/INIVEL)"));
 }
 
-TEST(Plausibility, ABodyHeldBesideItsCentre) {
+TEST(Plausibility, ABodyWithAMovingWallBesideItsCentre) {
   const auto deck = [](const char* node, const std::string& held) {
     const std::string text = plate(si, "2.1e11",
                                    "/SENSOR/TIME/2\nlate\n" + testing::reals({"0.001"}) + "/GRNOD/NODE/1\nall\n" +
@@ -64,14 +64,15 @@ TEST(Plausibility, ABodyHeldBesideItsCentre) {
     return with_line(text, "/NODE", 5, testing::ints({5}).substr(0, 10) + node);
   };
   const std::string held = "/GRNOD/NODE/2\nmain\n" + testing::ints({5}) + "/BCS/1\nslide\n   001 000         0         2\n";
+  const std::string wall = "/RWALL/PLANE/7\nwall\n" + testing::field("5", 10) + testing::ints({0, 1, 0}) +
+                           testing::reals({"0", "0", "0", "0"}) + testing::reals({"2", "0", "0", "3"}) + testing::reals({"0", "0", "1"});
   const char* beside = "                 0.5                   0                   0";
   EXPECT_TRUE(
-      build_text(deck(beside, held))
-          .has("warning: /RBODY/1: its main node is held by a condition, an imposed motion or a wall and stays 0.5 beside the centre "
-               "of gravity: the body then moves as if its mass were there, which makes energy when it turns; put node 5 at 0.5 0.5 "
-               "0"));
-  EXPECT_FALSE(build_text(deck(beside, "")).has("centre of gravity"));
-  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0", held)).has("centre of gravity"));
+      build_text(deck(beside, wall))
+          .has("warning: /RBODY/1: its main node carries a moving wall and stays 0.5 beside the centre of gravity: the body then moves as "
+               "if its mass were there, which makes energy when it turns; put node 5 at 0.5 0.5 0"));
+  EXPECT_FALSE(build_text(deck(beside, held)).has("centre of gravity"));
+  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0", wall)).has("centre of gravity"));
 }
 
 TEST(Plausibility, TabsAreNamedWhereAFieldCannotBeRead) {
