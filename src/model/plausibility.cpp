@@ -75,7 +75,16 @@ void wall_beside_the_centre(Context& c) {
 
 void walls_and_bodies(Context& c) {
   const Model& m = *c.model;
-  std::vector<Index> body(static_cast<std::size_t>(m.node_count()), no_index);
+  const auto n = static_cast<std::size_t>(m.node_count());
+  std::vector<Index> body(n, no_index);     // whose secondary node it is from the start, no_index: none
+  std::vector<Index> stopped(n, no_index);  // body that a wall may stop there
+  for (std::size_t b = 0; b < m.rigid_bodies.size(); ++b) {
+    const RigidBody& card = m.rigid_bodies[b];
+    if (!card.active) continue;
+    stopped[static_cast<std::size_t>(card.main)] = static_cast<Index>(b);
+    if (!card.keep_in_walls && card.sensor == no_index) continue;
+    for (const Index node : card.nodes) stopped[static_cast<std::size_t>(node)] = static_cast<Index>(b);
+  }
   for (std::size_t b = 0; b < m.rigid_bodies.size(); ++b) {
     const RigidBody& card = m.rigid_bodies[b];
     if (card.sensor != no_index || !card.active) continue;  // Ikrem 1 is forced for a body with a sensor
@@ -96,6 +105,17 @@ void walls_and_bodies(Context& c) {
                       "/RBODY takes secondary nodes out of walls; write 1 where the wall is to stop the body",
                       count == 1 ? "1 node follows" : fmt::format("{} nodes follow", count), m.node_id[static_cast<std::size_t>(first)],
                       b.id, count == 1 ? "is" : "are"));
+    }
+    const auto unfiltered = [&](Index node) { return stopped[static_cast<std::size_t>(node)] != no_index && node != w.node; };
+    const auto at_once = w.slide == 2 && w.filter_kind != 0 ? std::count_if(w.nodes.begin(), w.nodes.end(), unfiltered) : 0;
+    if (at_once > 0) {
+      const Index first = *std::find_if(w.nodes.begin(), w.nodes.end(), unfiltered);
+      c.diagnostics->note("model.wall_and_body", place_of(c, "RWALL", w.id),
+                          fmt::format("ifq filters the friction of free nodes; that of {} (the first is node {}, of rigid body {}) acts in "
+                                      "full at once: 0 of ifq filters none",
+                                      at_once == 1 ? "1 node of a rigid body" : fmt::format("{} nodes of rigid bodies", at_once),
+                                      m.node_id[static_cast<std::size_t>(first)],
+                                      m.rigid_bodies[static_cast<std::size_t>(stopped[static_cast<std::size_t>(first)])].id));
     }
     if (w.node != no_index && follows(w.node) && w.velocity != Vec3{}) {
       c.diagnostics->warning("model.wall_and_body", place_of(c, "RWALL", w.id),

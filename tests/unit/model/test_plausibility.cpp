@@ -49,6 +49,19 @@ TEST(Plausibility, NodesOfARigidBodyPassAWall) {
                        "this wall, because Ikrem = 0 of /RBODY takes secondary nodes out of walls; write 1 where the wall is to stop the "
                        "body"));
   EXPECT_TRUE(build_text(plate(si, "2.1e11", body_with(1) + wall("0"))).messages().empty());
+  // Friction with a filter: free nodes have it, those of bodies that the wall stops do not.
+  const auto rough = [](const char* ifq) {
+    return "/RWALL/PLANE/7\nwall\n" + testing::ints({0, 2, 1, 0}) + testing::reals({"0", "0.2"}).substr(0, 40) + std::string(20, ' ') +
+           testing::field("0.5", 20) + testing::field(ifq, 10) + "\n" + testing::reals({"0", "0", "-1"}) + testing::reals({"0", "0", "1"});
+  };
+  EXPECT_TRUE(
+      build_text(plate(si, "2.1e11", body_with(1) + rough("1")))
+          .has("note: /RWALL/PLANE/7: ifq filters the friction of free nodes; that of 4 nodes of rigid bodies (the first is node 1, of "
+               "rigid body 1) acts in full at once: 0 of ifq filters none"));
+  for (const std::string& quiet :
+       {body_with(1) + rough("0"), body_with(0) + rough("1"), "/GRNOD/NODE/1\nall\n" + testing::ints({1, 2}) + rough("1")}) {
+    EXPECT_FALSE(build_text(plate(si, "2.1e11", quiet)).has("ifq")) << quiet;
+  }
   EXPECT_TRUE(build_text(plate(si, "2.1e11", body + wall("2")))
                   .has("warning: /RWALL/PLANE/7: the wall's initial velocity is not used: its node 2 follows a rigid body, give the "
                        "velocity to the body's "
