@@ -82,7 +82,7 @@ void Cycle::close_balance() {
   const bool product_form = options_.profile.kinetic_energy == Profile::KineticEnergy::leapfrog;
   const KineticSums kinetic = ledger_.sum(state_, product_form, pool_);
   const double external = (loaded_ ? loads_.ledger_work(state_) : 0.0) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
-                          imposed_.ledger_work(state_) + walls_.ledger_work(state_) + edited_work_;
+                          imposed_.ledger_work(state_) + bodies_.hold_work(state_) + walls_.ledger_work(state_) + edited_work_;
   b.extw += options_.profile.external_work == Profile::ExternalWork::discrete ? external : booked_work_ + edited_work_;
   const double constraint_work = external + bodies_.ledger_work(state_);
   const double t_star = kinetic.leapfrog + bodies_.ledger_correction(state_);

@@ -52,6 +52,7 @@ void Cycle::advance(Sink& sink) {
     booked_work_ += gravities_.book_work(state_);
     boundary_.apply(state_);  // 18
     imposed_.apply(state_);   // 20
+    bodies_.hold(state_, boundary_, imposed_);
     booked_work_ += imposed_.book_work(state_);
     walls_.apply(state_);  // 21
     booked_work_ += walls_.work();
