@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -118,6 +120,22 @@ TEST(Restart, DeletedElementsScaledMassesSensorsAndInstrumentsGoOnWithTheSameBit
   const std::string engine = std::string(base_engine) + "/DT/NODA/CST\n0.9 1.5e-4\n";
   const Model model = base_model(starter, engine);
   expect_restarts(model, settings_of(Rules::standard), {3, 80, 200}, "deleted");
+}
+
+TEST(Restart, BodiesHeldBesideTheirCentreGoOnWithTheSameBits) {
+  std::string starter = with_line(base_starter, "/RBODY/1", 2,
+                                  "        30         0         0         0                1E-6         3         0         3         0");
+  starter.replace(starter.find("/INIVEL/TRA/1"), 0,
+                  "/BCS/2\npin\n   010 000         0         5\n/IMPVEL/2\npull\n" + integers({"1", "X", "0", "0", "5"}) + "\n" +
+                      reals({"1", "3", "0", "1"}) + "\n");
+  const Model model = base_model(starter);
+  abut::Run run(model, settings_of(Rules::standard));
+  while (run.time() < 0.04) run.advance();
+  const auto main = static_cast<std::size_t>(std::find(model.node_ids().begin(), model.node_ids().end(), 30) - model.node_ids().begin());
+  EXPECT_NEAR(run.velocities()[main].x, 3.0 * (run.time() - 0.5 * run.step()), 1e-12);
+  EXPECT_LT(std::fabs(run.displacements()[main].y), 1e-12);
+  EXPECT_GT(norm(run.angular_velocities()[main]), 1e-3);
+  expect_restarts(model, settings_of(Rules::standard), {1, 7, 60}, "held");
 }
 
 TEST(Restart, VelocitiesThatWereChangedAreInTheCheckpoint) {
