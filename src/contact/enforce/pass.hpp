@@ -205,8 +205,9 @@ class Pass {
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                        const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums);
   /// Adds the facets that are as near as the one in `touch`, and those that store more (pair.hpp).
-  void look_further(const Side& held, const Side& surface, const Measure& m, Index i, double strip, bool was_held, Touch& touch,
-                    GroupSums& sums);
+  /// @param by  what the nearest one, m, was looked for with
+  void look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
+                    Touch& touch, GroupSums& sums);
   /// The pair of facet `nearest` and node i, with whichever of `all` stores the most for it.
   void add_strongest(const Side& held, const Side& surface, Index i, const NormalLaw& law, double gap, bool widens, Further& nearest,
                      std::span<Further> all, double share, PairForce& sum) const;
