@@ -102,6 +102,7 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, const N
     sum.magnitude += of_it * part.magnitude;
     sum.potential += of_it * part.potential;
     sum.stiffness = std::max(sum.stiffness, part.stiffness);
+    sum.whole = std::max(sum.whole, part.whole);
     sum.extra_tangent = std::max(sum.extra_tangent, part.extra_tangent);
   };
   if (most <= (1.0 + equally_strong) * nearest.own.potential) {
