@@ -58,7 +58,7 @@ BoundaryConditions::BoundaryConditions(const model::Model& model, const Axes& ax
 void BoundaryConditions::apply(state::State& state) {
   meter_.before(state);
   for (const Index node : nodes_) {
-    if (!secondary_too_ && bodies_->body_of(node) != no_index) continue;
+    if (!secondary_too_ && (bodies_->body_of(node) != no_index || bodies_->holds(node))) continue;
     const auto i = static_cast<std::size_t>(node);
     if (const Index e = plain_entry(node); e != no_index) {
       const unsigned bits = held_bits(entries_[static_cast<std::size_t>(e)]);

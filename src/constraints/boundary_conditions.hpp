@@ -24,7 +24,7 @@ class BoundaryConditions {
   BoundaryConditions(const model::Model& model, const Axes& axes, const RigidBodies& bodies, const Profile& profile = {});
 
   /// Steps 18 and 22. Secondary nodes of active rigid bodies are left alone: step 23 overwrites them (reference profile: their
-  /// half-step velocity is zeroed as everywhere, which shows in outputs only).
+  /// half-step velocity is zeroed as everywhere, which shows in outputs only), and so are main nodes that RigidBodies::hold() holds.
   void apply(state::State& state);
 
   /// IBC of interfaces: direction 0..2 translation, 3..5 rotation, along the axes of the node's own card.

@@ -51,8 +51,11 @@ void ImposedMotions::apply(state::State& state) {
     const bool rotation = motion.direction >= 3;
     const Vec3 axis = axes_->axis(motion.skew, motion.direction % 3);
     Vec3& acceleration = rotation ? state.alpha[i] : state.a[i];
-    const double v = dot(rotation ? state.w[i] : state.v[i], axis);
+    const bool held = bodies_->holds(dof.node);  // its entries of v and a are those of the centre
+    const Vec3 point_v = held ? state.v[i] + bodies_->relative_velocity(bodies_->main_of(dof.node)) : state.v[i];
+    const double v = dot(rotation ? state.w[i] : point_v, axis);
     const double free = dot(acceleration, axis);
+    if (held && rotation) dof.angle += times.h_minus * v;
     if (dof.active) {
       const auto curve = [&](double at) { return curves_->scaled(motion.function, motion.sensor, motion.scale_x, motion.scale_y, at); };
       double imposed = 0.0;
@@ -66,6 +69,10 @@ void ImposedMotions::apply(state::State& state) {
         const double reached = rotation ? dof.angle : dot(state.u[i], axis);
         imposed = ((curve(t + h) - reached) / h - v) / hb;
       }
+      if (held) {
+        dof.wanted = v + hb * imposed;
+        continue;
+      }
       const double change = imposed - free;
       acceleration += change * axis;
       const Index body = rotation ? bodies_->main_of(dof.node) : no_index;
@@ -76,7 +83,7 @@ void ImposedMotions::apply(state::State& state) {
       reaction_[m] += resistance * change;
     }
     // Rotation is not a nodal state: it is summed here, with the velocity that this step will have.
-    if (rotation) dof.angle += h * (v + hb * dot(acceleration, axis));
+    if (rotation && !held) dof.angle += h * (v + hb * dot(acceleration, axis));
   }
   meter_.after(state);
 }

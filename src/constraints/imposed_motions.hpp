@@ -24,7 +24,8 @@ class ImposedMotions {
  public:
   ImposedMotions(const model::Model& model, const Curves& curves, const Axes& axes, const RigidBodies& bodies);
 
-  /// Step 20. Secondary nodes of active rigid bodies are left alone.
+  /// Step 20. Secondary nodes of active rigid bodies are left alone; of main nodes beside the centre only the velocity wanted is found, for
+  /// RigidBodies::hold().
   void apply(state::State& state);
 
   /// After apply(), once per cycle: (a - a_free)/2 m (v + h_bar a / 2) times h_- now, and times h_+ in the next cycle if the
@@ -48,7 +49,18 @@ class ImposedMotions {
     }
   }
 
-  /// Reaction of motion i on each of its nodes in this cycle, m (a - a_free) along the axis (force or moment).
+  /// After apply(): calls take(rotation, axis, velocity wanted at n + 1/2) for every component of a main node beside the centre.
+  template <class Take>
+  void for_each_wanted(Index node, const Take& take) const {
+    for (const Dof& dof : dofs_) {
+      if (dof.node != node || !dof.active) continue;
+      const model::ImposedMotion& motion = model_->imposed_motions[static_cast<std::size_t>(dof.motion)];
+      take(motion.direction >= 3, axes_->axis(motion.skew, motion.direction % 3), dof.wanted);
+    }
+  }
+
+  /// Reaction of motion i on each of its nodes in this cycle, m (a - a_free) along the axis (force or moment); none where
+  /// RigidBodies::hold() moves the node.
   [[nodiscard]] double reaction(Index motion) const { return reaction_[static_cast<std::size_t>(motion)]; }
 
  private:
@@ -57,6 +69,7 @@ class ImposedMotions {
     double angle = 0.0;      ///< accumulated rotation (rotational displacement only)
     double power = 0.0;      ///< m (a - a_free) (v + h_bar a / 2) / 2 of this cycle
     double old_power = 0.0;  ///< of the previous cycle
+    double wanted = 0.0;     ///< velocity at n + 1/2; of this cycle, where RigidBodies::hold() moves the node
     bool active = false;
   };
   [[nodiscard]] bool acts(const Dof& dof, const model::ImposedMotion& motion, double t) const;

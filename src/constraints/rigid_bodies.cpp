@@ -38,12 +38,6 @@ RigidBodies::RigidBodies(const model::Model& model, const Profile& profile)
       main_of_(at(model.node_count()), no_index),
       bound_(model.rigid_bodies.size(), false) {
   std::vector<bool> bound(at(model.node_count()), false);
-  for (const model::BoundaryCondition& card : model.boundary_conditions) {
-    for (const Index node : card.nodes) bound[at(node)] = true;
-  }
-  for (const model::ImposedMotion& card : model.imposed_motions) {
-    for (const Index node : card.nodes) bound[at(node)] = true;
-  }
   for (const model::RigidWall& card : model.rigid_walls) {
     if (card.node != no_index) bound[at(card.node)] = true;
   }
@@ -186,8 +180,11 @@ void RigidBodies::accelerate(state::State& state, const BoundaryConditions& cond
     if (!body.on) continue;
     const Index node = model_->rigid_bodies[i].main;
     const std::size_t main = at(node);
-    body.euler_alpha = angular_acceleration(body, torque(i, state), state.w[main], state.times.h_bar, conditions.held(node, true));
+    const BoundaryConditions::Held held = body.beside ? BoundaryConditions::Held{} : conditions.held(node, true);
+    body.euler_alpha = angular_acceleration(body, torque(i, state), state.w[main], state.times.h_bar, held);
     if (body.beside) state.v[main] -= body.relative;
+    body.held_force = body.held_moment = Vec3{};
+    body.held.count = 0;
     state.alpha[main] = body.euler_alpha;
     state.m[main] = state.inertia[main] * body.euler_alpha;
   }
@@ -214,6 +211,12 @@ Vec3 RigidBodies::next_velocity(const state::State& state, const Carrier& carrie
 void RigidBodies::push(state::State& state, const Carrier& carrier, const Vec3& impulse) const {
   const std::size_t node = at(carrier.node);
   const double hb = state.times.h_bar;
+  if (carrier.body != no_index && bodies_[at(carrier.body)].beside) {
+    const Answer::Motion m = answer(state, carrier.body, carrier.translation, carrier.rotation).motion(state.x[at(carrier.point)], impulse);
+    state.a[node] += m.v / hb;
+    state.alpha[node] += m.w / hb;
+    return;
+  }
   if (state.mass[node] > 0.0) state.a[node] += carrier.translation.free_part(impulse) / (state.mass[node] * hb);
   if (carrier.body == no_index) return;
   const Vec3 arm = state.x[at(carrier.point)] - centre_of(carrier.body, state);
@@ -229,6 +232,7 @@ void RigidBodies::scatter(state::State& state) {
     const model::RigidBody& card = model_->rigid_bodies[i];
     const std::size_t main = at(card.main);
     const Vec3 centre = centre_of(static_cast<Index>(i), state);
+    satisfy(i, state);
     const Vec3 w = state.w[main] + hb * state.alpha[main];
     const Vec3 v = state.v[main] + hb * state.a[main];
     const Vec3 angle = h * w;
@@ -280,6 +284,7 @@ void RigidBodies::persist(state::Archive& a) {
   a.each(sums_, [&a](BodySums& s) {
     for (Vec3* v : {&s.force_impulse, &s.moment_impulse, &s.force, &s.moment, &s.rotation}) a(*v);
   });
+  a(hold_second_half_);
   a.fixed(body_of_);
   a.fixed(main_of_);
   if (!a.loading()) return;
@@ -295,12 +300,18 @@ void RigidBodies::persist(state::Archive& a) {
 RigidBodies::Answer RigidBodies::answer(const state::State& state, Index body, const BoundaryConditions::Held& translation,
                                         const BoundaryConditions::Held& rotation) const {
   const std::size_t main = at(model_->rigid_bodies[at(body)].main);
-  Answer r{translation.mobility(state.mass[main]), {}, centre_of(body, state)};
+  const Body& b = bodies_[at(body)];
+  using Held = BoundaryConditions::Held;
+  Answer r{(b.beside ? Held{} : translation).mobility(state.mass[main]), {}, centre_of(body, state), {}};
   for (int k = 0; k < 3; ++k) {
     Vec3 unit{};
     unit[k] = 1.0;
-    r.rotation[static_cast<std::size_t>(k)] = solve_free(bodies_[at(body)].inertia, unit, rotation);
+    r.rotation[static_cast<std::size_t>(k)] = solve_free(b.inertia, unit, b.beside ? Held{} : rotation);
   }
+  if (!b.beside) return r;
+  r.held.arm = state.x[main] - r.centre;
+  for (int k = 0; k < translation.count; ++k) add_row(r.held, b, translation.axis[static_cast<std::size_t>(k)], {}, 0.0);
+  for (int k = 0; k < rotation.count; ++k) add_row(r.held, b, {}, rotation.axis[static_cast<std::size_t>(k)], 0.0);
   return r;
 }
 

@@ -22,6 +22,8 @@ struct BodySums {
   Vec3 force_impulse, moment_impulse, force, moment, rotation;
 };
 
+class ImposedMotions;
+
 /// What nodal sums (1/2 m v^2, ...) over all nodes need to become those of the structure, because the mass of secondary nodes
 /// also sits in the main node: add these.
 struct EnergyCorrection {
@@ -31,8 +33,9 @@ struct EnergyCorrection {
 
 /// Standard profile: a main node that stays where it is beside the centre of gravity (ICoG 3, or switched on by a sensor) is one more
 /// point of the body. Momentum, inertia and Euler's equations are those of the centre of gravity; from accelerate() to scatter() the
-/// main node's entries of v and a hold the centre's velocity and acceleration, so that gravity and walls act on the centre. A main node
-/// with boundary conditions, imposed motions or a wall carries the body's mass itself, as in the reference profile.
+/// main node's entries of v and a hold the centre's velocity and acceleration, so that gravity and walls act on the centre. Boundary
+/// conditions and imposed motions of such a node act at the point where it is: hold(). A main node with a moving wall carries the body's
+/// mass itself, as in the reference profile.
 class RigidBodies {
  public:
   explicit RigidBodies(const model::Model& model, const Profile& profile = {});
@@ -70,6 +73,18 @@ class RigidBodies {
   /// ... and its tensor, with the main node's inertia, grows by a factor.
   /// @return kinetic energy that this brings at the main node's angular velocity
   double scale_inertia(Index body, double factor, state::State& state);
+
+  /// Step 20, after the conditions and motions of other nodes: bodies whose main node is beside the centre get the forces and moments at
+  /// that node which give it the velocity n + 1/2 of its conditions (none) and imposed motions, on the chord of the body's rotation. Its
+  /// place does not drift. scatter() does so again, for what walls have changed.
+  void hold(state::State& state, const BoundaryConditions& conditions, const ImposedMotions& motions);
+  /// True for the main node of an active body that is beside the centre: its conditions and motions are those of hold().
+  [[nodiscard]] bool holds(Index node) const {
+    const Index body = main_of(node);
+    return body != no_index && bodies_[static_cast<std::size_t>(body)].beside;
+  }
+  /// Step 25, after scatter: discrete work of the forces of hold(). Once per cycle.
+  double hold_work(const state::State& state);
 
   /// Step 23: accelerations of secondary nodes such that they move rigidly with the main node in this step.
   /// @throws RunError when a body turns by more than one radian in a step
@@ -117,17 +132,46 @@ class RigidBodies {
   /// Steps 18 to 23: accelerations of the carrier that an impulse on the point adds over h_bar.
   void push(state::State& state, const Carrier& carrier, const Vec3& impulse) const;
 
+  /// A component of the motion of a held point, f.v + m.w of its velocity and spin, and what the impulse f and the angular impulse m on it
+  /// give: velocity of the centre and spin. Rows of one body are orthonormal: f_i, m_i give row k the value 1 for i = k, else 0.
+  struct HeldRow {
+    Vec3 force, moment, v, w;
+    double wanted = 0.0;  ///< value at n + 1/2
+    [[nodiscard]] double value(const Vec3& point_v, const Vec3& spin) const { return dot(force, point_v) + dot(moment, spin); }
+  };
+  struct HeldRows {
+    std::array<HeldRow, 6> row;
+    int count = 0;
+    Vec3 arm;  ///< of the held point from the centre
+  };
+
   /// Answer of an active body, its main node held in the given directions, to an impulse j at x: velocity T j of the main node (1/M where
-  /// it is free), angular velocity R (r x j) with r = x - centre (J^-1 where it is free).
+  /// it is free), angular velocity R (r x j) with r = x - centre (J^-1 where it is free). Where the main node is beside the centre, T and R
+  /// are those of the free body, and the impulses that hold the rows come in addition.
   struct Answer {
     contact::Mobility translation;
     std::array<Vec3, 3> rotation{};  ///< columns of R
     Vec3 centre;
+    HeldRows held;
+    struct Motion {
+      Vec3 v, w;  ///< of the centre; spin
+    };
+    [[nodiscard]] Motion motion(const Vec3& from, const Vec3& impulse) const {
+      const Vec3 moment = cross(from - centre, impulse);
+      Motion m{translation * impulse, moment.x * rotation[0] + moment.y * rotation[1] + moment.z * rotation[2]};
+      const Vec3 point_v = m.v + cross(m.w, held.arm), spin = m.w;
+      for (int k = 0; k < held.count; ++k) {
+        const HeldRow& row = held.row[static_cast<std::size_t>(k)];
+        const double value = row.value(point_v, spin);
+        m.v -= value * row.v;
+        m.w -= value * row.w;
+      }
+      return m;
+    }
     /// Velocity that the point of the body at `to` gains from an impulse at `from`, to first order in the angle per step.
     [[nodiscard]] Vec3 velocity(const Vec3& to, const Vec3& from, const Vec3& impulse) const {
-      const Vec3 moment = cross(from - centre, impulse);
-      const Vec3 spin = moment.x * rotation[0] + moment.y * rotation[1] + moment.z * rotation[2];
-      return translation * impulse + cross(spin, to - centre);
+      const Motion m = motion(from, impulse);
+      return m.v + cross(m.w, to - centre);
     }
   };
   [[nodiscard]] Answer answer(const state::State& state, Index body, const BoundaryConditions::Held& translation,
@@ -136,10 +180,12 @@ class RigidBodies {
  private:
   struct Body {
     bool on = false;
-    bool beside = false;      ///< the main node is beside the centre of gravity; else the next four are not used
-    Vec3 centre;              ///< of gravity, t^n
-    Vec3 relative;            ///< velocity of the main node less the centre's, n - 1/2
-    Vec3 centre_v, centre_a;  ///< of the cycle, from scatter() on
+    bool beside = false;           ///< the main node is beside the centre of gravity; else the next seven are not used
+    Vec3 centre;                   ///< of gravity, t^n
+    Vec3 relative;                 ///< velocity of the main node less the centre's, n - 1/2
+    Vec3 centre_v, centre_a;       ///< of the cycle, from scatter() on
+    HeldRows held;                 ///< of the cycle, from hold() on
+    Vec3 held_force, held_moment;  ///< at the main node, this cycle
     Inertia inertia;
     double own_mass = 0.0, own_inertia = 0.0;  ///< of the main node alone
     Vec3 own_moment;                           ///< moment on the main node alone, this cycle
@@ -158,6 +204,10 @@ class RigidBodies {
     const Body& b = bodies_[static_cast<std::size_t>(body)];
     return b.beside ? b.centre : state.x[static_cast<std::size_t>(model_->rigid_bodies[static_cast<std::size_t>(body)].main)];
   }
+  /// Adds a row, less its part in the rows before; one that says nothing new is left out.
+  void add_row(HeldRows& rows, const Body& body, const Vec3& force, const Vec3& moment, double wanted) const;
+  /// The rows' values: adds to held_force and held_moment, and to the main node's accelerations.
+  void satisfy(std::size_t index, state::State& state);
   [[nodiscard]] Vec3 torque(std::size_t index, const state::State& state) const;
   [[nodiscard]] Vec3 angular_acceleration(const Body& body, const Vec3& torque, const Vec3& w, double h_bar,
                                           const BoundaryConditions::Held& held) const;
@@ -170,7 +220,8 @@ class RigidBodies {
   std::vector<Body> bodies_;
   std::vector<BodySums> sums_;
   std::vector<Index> body_of_, main_of_;
-  std::vector<bool> bound_;  ///< per body: the main node has conditions, an imposed motion or a wall
+  std::vector<bool> bound_;  ///< per body: the main node has a moving wall
+  double hold_second_half_ = 0.0;
   int revision_ = 0;
 };
 

@@ -84,6 +84,10 @@ double RigidBodies::ledger_work(const state::State& state) {
       double p = dot(moment, state.w[main] + step * state.alpha[main]);
       const Vec3 v = state.v[main] + step * state.a[main];
       p -= dot(sums_[i].force, v);
+      if (body.beside) {  // hold_work() books where hold() acts
+        p += dot(body.held_force, v - body.centre_v - step * body.centre_a);
+        p += dot(body.held_moment, state.w[main] + step * state.alpha[main]);
+      }
       if (body.beside) p -= dot(state.f[main], body.centre_v + step * body.centre_a - v);  // the body's force acts on its centre
       for (const Index node : card.nodes) {
         const std::size_t s = at(node);

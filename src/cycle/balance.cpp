@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <type_traits>
 
+#include "cycle/contact_area.hpp"
 #include "cycle/cycle.hpp"
 
 namespace abut::cycle {
@@ -80,7 +82,7 @@ void Cycle::close_balance() {
   const bool product_form = options_.profile.kinetic_energy == Profile::KineticEnergy::leapfrog;
   const KineticSums kinetic = ledger_.sum(state_, product_form, pool_);
   const double external = (loaded_ ? loads_.ledger_work(state_) : 0.0) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
-                          imposed_.ledger_work(state_) + walls_.ledger_work(state_) + edited_work_;
+                          imposed_.ledger_work(state_) + bodies_.hold_work(state_) + walls_.ledger_work(state_) + edited_work_;
   b.extw += options_.profile.external_work == Profile::ExternalWork::discrete ? external : booked_work_ + edited_work_;
   const double constraint_work = external + bodies_.ledger_work(state_);
   const double t_star = kinetic.leapfrog + bodies_.ledger_correction(state_);
@@ -182,7 +184,7 @@ void Cycle::fill_contact_fields() {
     i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
     i.contact.add_nodal_contact(contact_state_);
   }
-  contact_facets_.write(state_.x, interfaces_, contact_area_);
+  ContactArea(model_, interfaces_).write(state_.x, interfaces_, contact_area_);  // of use in few cycles
 }
 
 void Cycle::fill_option_forces() {
@@ -214,12 +216,8 @@ Snapshot Cycle::snapshot_of_cycle() {
     fill_contact_fields();
     fill_option_forces();
   } else if (!contact_normal_.empty()) {  // as large as half the state, and of use in few cycles
-    contact_normal_ = {};
-    contact_tangential_ = {};
-    contact_area_ = {};
-    contact_state_ = {};
-    option_force_ = {};
-    option_moment_ = {};
+    const auto release = [](auto&... values) { (std::remove_reference_t<decltype(values)>().swap(values), ...); };  // = {} keeps the memory
+    release(contact_normal_, contact_tangential_, contact_area_, contact_state_, option_force_, option_moment_);
   }
   Snapshot s = snapshot();
   s.history_due = history_due_;

@@ -15,7 +15,6 @@ namespace abut::cycle {
 
 class ContactArea {
  public:
-  ContactArea() = default;
   ContactArea(const model::Model& model, std::span<const init::RunInterface> interfaces);
 
   /// Per node a quarter (third) of each facet around it that is active in some interface; 0 elsewhere.

@@ -17,6 +17,7 @@ std::vector<Index> nodes_of(const contact::InspectionInput& input) {
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  nodes.shrink_to_fit();
   return nodes;
 }
 
@@ -45,14 +46,15 @@ bool has_moved(std::span<const Index> nodes, std::span<const Vec3> seen, std::sp
 
 }  // namespace
 
-ContactFacing::ContactFacing(const model::Model& model) : interfaces_(model.interfaces.size()) {
+ContactFacing::ContactFacing(const model::Model& model)
+    : time_between_(model.controls.t_end / looks), model_(&model), interfaces_(model.interfaces.size()) {
   const std::span<const Vec3> x(model.node_x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     const model::Interface& card = model.interfaces[i];
     if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
     Watched& w = interfaces_[i];
-    w.geometry = std::make_unique<init::InspectedInterface>(model, card, x);
-    const contact::InspectionInput input = w.geometry->input(x);
+    const init::InspectedInterface geometry(model, card, x);
+    const contact::InspectionInput input = geometry.input(x);
     w.nodes = nodes_of(input);
     w.limit = moved_share * size_of(input);
   }
@@ -62,14 +64,16 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
   const std::span<const Vec3> x(state.x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     Watched& w = interfaces_[i];
-    if (w.geometry == nullptr) continue;
-    if (!w.seen.empty() && state.times.cycle < w.cycle + cycles_between) continue;
+    if (w.limit == 0.0) continue;
+    if (!w.seen.empty() && (state.times.cycle < w.cycle + cycles_between || state.times.t < w.time + time_between_)) continue;
     const bool decided = !std::isnan(results[i].facing[0]) || !std::isnan(results[i].facing[1]);
-    if (decided && !has_moved(w.nodes, w.seen, x, w.limit)) continue;
     w.cycle = state.times.cycle;
+    w.time = state.times.t;
+    if (decided && !has_moved(w.nodes, w.seen, x, w.limit)) continue;
     w.seen.clear();
     for (const Index n : w.nodes) w.seen.push_back(x[static_cast<std::size_t>(n)]);
-    contact::InspectionInput input = w.geometry->input(x);
+    const init::InspectedInterface geometry(*model_, model_->interfaces[i], model_->node_x);
+    contact::InspectionInput input = geometry.input(x);
     std::array<std::vector<std::int8_t>, 2> outward;
     if (results[i].in_contact > 0) {
       // Surfaces that feel each other are taken as surfaces of bodies: a penetration is an overlap, not a turned normal.
@@ -79,7 +83,7 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
         input.side[k].outward = outward[k];
       }
     }
-    const std::array<contact::Facing, 2> facing = contact::facing(input);
+    const std::array<contact::Facing, 2> facing = w.watch.look(input);
     for (std::size_t k = 0; k < 2; ++k) {
       const double fraction = facing[k].fraction();
       if (!std::isnan(fraction)) results[i].facing[k] = fraction;
@@ -91,6 +95,7 @@ void ContactFacing::persist(state::Archive& a) {
   a.each(interfaces_, [&a](Watched& w) {
     a.growing(w.seen);
     a(w.cycle);
+    a(w.time);
     if (!w.seen.empty() && w.seen.size() != w.nodes.size()) throw state::ArchiveError("the checkpoint does not fit the model (facing)");
   });
 }

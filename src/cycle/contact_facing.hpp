@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,11 +15,12 @@
 namespace abut::cycle {
 
 /// Looks at the surfaces of TYPE3 and TYPE5 again when a node of them has moved by a quarter of a facet since, or nothing is decided yet,
-/// at least `cycles_between` cycles later: a look costs about as much as some cycles. What it says depends on positions and cycle numbers
-/// only.
+/// at least `cycles_between` cycles and 1/`looks` of the run later: a look costs about as much as a cycle. What it says depends on
+/// positions, times and cycle numbers only.
 class ContactFacing {
  public:
   static constexpr std::int64_t cycles_between = 50;
+  static constexpr double looks = 100.0;
 
   ContactFacing() = default;
   explicit ContactFacing(const model::Model& model);
@@ -31,12 +31,15 @@ class ContactFacing {
 
  private:
   struct Watched {
-    std::unique_ptr<init::InspectedInterface> geometry;  ///< none of TYPE7, whose normals do not matter
-    double limit = 0.0;                                  ///< motion that asks for another look
-    std::vector<Index> nodes;                            ///< of both surfaces, without repetition
-    std::vector<Vec3> seen;                              ///< their positions at the last look; empty: none yet
-    std::int64_t cycle = 0;                              ///< of the last look
+    contact::FacingWatch watch;
+    double limit = 0.0;        ///< motion that asks for another look; 0: TYPE7, whose normals do not matter
+    std::vector<Index> nodes;  ///< of both surfaces, without repetition
+    std::vector<Vec3> seen;    ///< their positions at the last look; empty: none yet
+    std::int64_t cycle = 0;    ///< in which it was last asked whether a look is due
+    double time = 0.0;         ///< the same
   };
+  double time_between_ = 0.0;
+  const model::Model* model_ = nullptr;
   std::vector<Watched> interfaces_;
 };
 

@@ -52,6 +52,7 @@ void Cycle::advance(Sink& sink) {
     booked_work_ += gravities_.book_work(state_);
     boundary_.apply(state_);  // 18
     imposed_.apply(state_);   // 20
+    bodies_.hold(state_, boundary_, imposed_);
     booked_work_ += imposed_.book_work(state_);
     walls_.apply(state_);  // 21
     booked_work_ += walls_.work();
@@ -156,7 +157,7 @@ void Cycle::contact_forces(StepLimits& limits) {
       limits.interface_controller = {StepController::Kind::interface, model_.interfaces[static_cast<std::size_t>(i.model_index)].id};
     }
   }
-  if (history_due_) contact_facing_.look(state_, interface_results_);
+  contact_facing_.look(state_, interface_results_);
   if (releases_) release_boundary_conditions();
 }
 

@@ -17,7 +17,6 @@
 #include "constraints/rigid_bodies.hpp"
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
-#include "cycle/contact_area.hpp"
 #include "cycle/contact_facing.hpp"
 #include "cycle/contact_mobility.hpp"
 #include "cycle/contact_thickness.hpp"
@@ -115,7 +114,6 @@ class Cycle {
   std::vector<double> contact_stiffness_;                  // #N
   std::vector<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
   ContactMobility contact_mobility_;
-  ContactArea contact_facets_;
   ContactFacing contact_facing_;
   ContactThickness contact_thickness_;
   std::vector<double> contact_area_;

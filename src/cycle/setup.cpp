@@ -47,7 +47,6 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   if (!options.profile.reference_contact) contact_mobility_ = ContactMobility(model, interfaces_, boundary_);
   // The reference program keeps the stiffness of the start.
   if (!options.profile.reference_contact) contact_thickness_ = ContactThickness(model, groups_, interfaces_);
-  contact_facets_ = ContactArea(model, interfaces_);
   if (options.interfaces) contact_facing_ = ContactFacing(model);
 
   std::vector<std::uint8_t> free_translation(n, 1);

@@ -1,5 +1,5 @@
-// What a deck may say, but rarely means: materials in other units than /BEGIN, bodies held beside their centre of gravity, nodes that a
-// rigid wall does not stop.
+// What a deck may say, but rarely means: materials in other units than /BEGIN, walls on bodies beside their centre of gravity, nodes
+// that a rigid wall does not stop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,16 +42,10 @@ void speeds_of_sound(Context& c) {
   }
 }
 
-/// A main node that stays where it is and is held there carries the mass of its body as if it were the centre of gravity.
-void held_beside_the_centre(Context& c) {
+/// A main node that stays where it is and carries a moving wall carries the mass of its body as if it were the centre of gravity.
+void wall_beside_the_centre(Context& c) {
   const Model& m = *c.model;
   std::vector<bool> held(static_cast<std::size_t>(m.node_count()), false);
-  for (const BoundaryCondition& card : m.boundary_conditions) {
-    for (const Index n : card.nodes) held[static_cast<std::size_t>(n)] = true;
-  }
-  for (const ImposedMotion& card : m.imposed_motions) {
-    for (const Index n : card.nodes) held[static_cast<std::size_t>(n)] = true;
-  }
   for (const RigidWall& card : m.rigid_walls) {
     if (card.node != no_index) held[static_cast<std::size_t>(card.node)] = true;
   }
@@ -73,7 +67,7 @@ void held_beside_the_centre(Context& c) {
     const Vec3 centre = main + moment / mass;
     c.diagnostics->warning(
         "model.late_body", place_of(c, "RBODY", b.id),
-        fmt::format("its main node is held by a condition, an imposed motion or a wall and stays {:.4g} beside the centre of gravity: the "
+        fmt::format("its main node carries a moving wall and stays {:.4g} beside the centre of gravity: the "
                     "body then moves as if its mass were there, which makes energy when it turns; put node {} at {:.6g} {:.6g} {:.6g}",
                     norm(moment) / mass, m.node_id[static_cast<std::size_t>(b.main)], centre.x, centre.y, centre.z));
   }
@@ -81,7 +75,16 @@ void held_beside_the_centre(Context& c) {
 
 void walls_and_bodies(Context& c) {
   const Model& m = *c.model;
-  std::vector<Index> body(static_cast<std::size_t>(m.node_count()), no_index);
+  const auto n = static_cast<std::size_t>(m.node_count());
+  std::vector<Index> body(n, no_index);     // whose secondary node it is from the start, no_index: none
+  std::vector<Index> stopped(n, no_index);  // body that a wall may stop there
+  for (std::size_t b = 0; b < m.rigid_bodies.size(); ++b) {
+    const RigidBody& card = m.rigid_bodies[b];
+    if (!card.active) continue;
+    stopped[static_cast<std::size_t>(card.main)] = static_cast<Index>(b);
+    if (!card.keep_in_walls && card.sensor == no_index) continue;
+    for (const Index node : card.nodes) stopped[static_cast<std::size_t>(node)] = static_cast<Index>(b);
+  }
   for (std::size_t b = 0; b < m.rigid_bodies.size(); ++b) {
     const RigidBody& card = m.rigid_bodies[b];
     if (card.sensor != no_index || !card.active) continue;  // Ikrem 1 is forced for a body with a sensor
@@ -103,6 +106,17 @@ void walls_and_bodies(Context& c) {
                       count == 1 ? "1 node follows" : fmt::format("{} nodes follow", count), m.node_id[static_cast<std::size_t>(first)],
                       b.id, count == 1 ? "is" : "are"));
     }
+    const auto unfiltered = [&](Index node) { return stopped[static_cast<std::size_t>(node)] != no_index && node != w.node; };
+    const auto at_once = w.slide == 2 && w.filter_kind != 0 ? std::count_if(w.nodes.begin(), w.nodes.end(), unfiltered) : 0;
+    if (at_once > 0) {
+      const Index first = *std::find_if(w.nodes.begin(), w.nodes.end(), unfiltered);
+      c.diagnostics->note("model.wall_and_body", place_of(c, "RWALL", w.id),
+                          fmt::format("ifq filters the friction of free nodes; that of {} (the first is node {}, of rigid body {}) acts in "
+                                      "full at once: 0 of ifq filters none",
+                                      at_once == 1 ? "1 node of a rigid body" : fmt::format("{} nodes of rigid bodies", at_once),
+                                      m.node_id[static_cast<std::size_t>(first)],
+                                      m.rigid_bodies[static_cast<std::size_t>(stopped[static_cast<std::size_t>(first)])].id));
+    }
     if (w.node != no_index && follows(w.node) && w.velocity != Vec3{}) {
       c.diagnostics->warning("model.wall_and_body", place_of(c, "RWALL", w.id),
                              fmt::format("the wall's initial velocity is not used: its node {} follows a rigid body, give the velocity to "
@@ -116,7 +130,7 @@ void walls_and_bodies(Context& c) {
 
 void check_plausibility(Context& context) {
   speeds_of_sound(context);
-  held_beside_the_centre(context);
+  wall_beside_the_centre(context);
   walls_and_bodies(context);
 }
 

@@ -15,7 +15,6 @@ constexpr std::int64_t cycles_between_looks = 50;
 constexpr int looks = 100;             // per run
 constexpr double deep_share = 0.95;    // of the gap
 constexpr double energy_share = 0.02;  // of the largest energy term
-constexpr double moved_share = 0.25;   // of a facet: what turns a facet by a right angle moves a node of it by more
 
 double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x) {
   double sum = 0.0;
@@ -24,23 +23,6 @@ double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x
     sum += std::sqrt(0.5 * norm(cross(at(2) - at(0), (f.is_triangle() ? at(2) : at(3)) - at(1))));
   }
   return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
-}
-
-std::vector<Index> nodes_of(const contact::InspectionInput& input) {
-  std::vector<Index> nodes;
-  for (const contact::InspectedSide& side : input.side) {
-    for (const contact::Facet& f : side.facets) nodes.insert(nodes.end(), f.node.begin(), f.node.end());
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
-std::vector<Vec3> positions_of(std::span<const Index> nodes, std::span<const Vec3> x) {
-  std::vector<Vec3> out;
-  out.reserve(nodes.size());
-  for (const Index n : nodes) out.push_back(x[static_cast<std::size_t>(n)]);
-  return out;
 }
 
 std::string counted(std::size_t nodes) { return nodes == 1 ? "1 node" : fmt::format("{} nodes", nodes); }
@@ -83,23 +65,18 @@ std::string ContactWatch::first_ids(const Where& where) {
 }
 
 void ContactWatch::begin(const cycle::Snapshot& first) {
-  // A run that goes on knows its start: the geometry is made of the model's positions, as it was then.
-  const std::span<const Vec3> x(first.model->node_x);
   interfaces_.resize(first.model->interfaces.size());
+  if (loaded_) return;
+  const std::span<const Vec3> x(first.model->node_x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     const model::Interface& card = first.model->interfaces[i];
     Watched& w = interfaces_[i];
     if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
-    w.geometry = std::make_unique<init::InspectedInterface>(*first.model, card, x);
-    const contact::InspectionInput input = w.geometry->input(x);
-    w.nodes = nodes_of(input);
-    if (loaded_) continue;
-    w.seen = positions_of(w.nodes, x);
-    const auto facing = contact::facing(input);
+    w.facing_at_start = first.interfaces[i].facing;
     w.size = 1e300;
-    for (std::size_t k = 0; k < 2; ++k) {
-      w.facing_at_start[k] = facing[k].fraction();
-      if (!input.side[k].facets.empty()) w.size = std::min(w.size, mean_size(input.side[k].facets, x));
+    const init::InspectedInterface geometry(*first.model, card, x);
+    for (const contact::InspectedSide& side : geometry.input(x).side) {
+      if (!side.facets.empty()) w.size = std::min(w.size, mean_size(side.facets, x));
     }
   }
 }
@@ -109,7 +86,6 @@ void ContactWatch::persist(state::Archive& a) {
   a.each_growing(interfaces_, [&a](Watched& w) {
     a(w.facing_at_start);
     a(w.size);
-    a.growing(w.seen);
     for (bool* said : {&w.turned, &w.deep, &w.made}) a(*said);
   });
   a(next_look_);
@@ -145,7 +121,7 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
           counted(nodes), nodes == 1 ? "is" : "are");
     });
     const double limit = card.gap > 0.0 ? deep_share * card.gap : 0.5 * w.size;
-    if (!w.deep && w.geometry != nullptr && r.largest_penetration > limit) {
+    if (!w.deep && w.size > 0.0 && r.largest_penetration > limit) {
       w.deep = true;
       say(now, i, "contact.deep_penetration", r.largest_penetration / limit,
           fmt::format("a node has penetrated by {:.4g} ({}); raise Stfac, the gap, or refine the mesh", r.largest_penetration,
@@ -165,15 +141,6 @@ void ContactWatch::cycle(const cycle::Snapshot& now) {
   if (now.state->times.t >= next_look_ && now.state->times.cycle >= next_look_cycle_) look(now);
 }
 
-bool ContactWatch::has_moved(const Watched& w, std::span<const Vec3> x) {
-  if (w.seen.size() != w.nodes.size()) return true;
-  const double limit = moved_share * w.size;
-  for (std::size_t k = 0; k < w.nodes.size(); ++k) {
-    if (squared_norm(x[static_cast<std::size_t>(w.nodes[k])] - w.seen[k]) > limit * limit) return true;
-  }
-  return false;
-}
-
 void ContactWatch::look(const cycle::Snapshot& now) {
   const double t = now.state->times.t;
   next_look_ = std::max(t, next_look_ + now.model->controls.t_end / looks);
@@ -181,13 +148,14 @@ void ContactWatch::look(const cycle::Snapshot& now) {
   const std::span<const Vec3> x(now.state->x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     Watched& w = interfaces_[i];
-    if (w.geometry == nullptr || w.turned) continue;
+    const std::array<double, 2>& faces = now.interfaces[i].facing;
+    if (w.turned || (!(faces[0] < 0.5) && !(faces[1] < 0.5))) continue;
     const model::Interface& card = now.model->interfaces[i];
     // While nodes are in contact the surfaces feel each other, whatever small overlaps make of the facing rule.
     if (t < card.t_start || t > card.t_stop || now.interfaces[i].in_contact > 0) continue;
-    if (!has_moved(w, x)) continue;
-    w.seen = positions_of(w.nodes, x);
-    const auto facing = contact::facing(w.geometry->input(x));
+    const init::InspectedInterface geometry(*now.model, card, now.model->node_x);
+    const contact::InspectionInput input = geometry.input(x);
+    const auto facing = contact::facing(input);
     for (std::size_t k = 0; k < 2; ++k) {
       if (facing[k].distance > card.gap + w.size || !(w.facing_at_start[k] >= 0.5) || !(facing[k].fraction() < 0.5)) continue;
       w.turned = true;
@@ -195,9 +163,9 @@ void ContactWatch::look(const cycle::Snapshot& now) {
           fmt::format("the normals of surface {} have turned away: only {:.3g} % of it near the other side faces it (at the start {:.3g} "
                       "%), at a distance "
                       "of {:.4g}; contact is not felt there any more: choose the surfaces for the deformed shape too",
-                      now.model->surfaces[static_cast<std::size_t>(w.geometry->surface(static_cast<int>(k)))].id,
-                      100.0 * facing[k].fraction(), 100.0 * w.facing_at_start[k], facing[k].distance),
-          {{}, segments_away(now, w.geometry->input(x).side[k], facing[k])});
+                      now.model->surfaces[static_cast<std::size_t>(geometry.surface(static_cast<int>(k)))].id, 100.0 * facing[k].fraction(),
+                      100.0 * w.facing_at_start[k], facing[k].distance),
+          {{}, segments_away(now, input.side[k], facing[k])});
     }
   }
 }

@@ -15,8 +15,8 @@
 
 namespace abut::output {
 
-/// Adds to RunInfo::during what it finds, each code once per interface (and surface). Geometry is looked at a hundred times in a run, if
-/// surfaces have moved since.
+/// Adds to RunInfo::during what it finds, each code once per interface (and surface). That normals turn away it sees in
+/// InterfaceResult::facing, and looks at the geometry itself then.
 class ContactWatch final : public cycle::Sink {
  public:
   explicit ContactWatch(std::shared_ptr<RunFindings> log) : log_(std::move(log)) {}
@@ -27,11 +27,8 @@ class ContactWatch final : public cycle::Sink {
 
  private:
   struct Watched {
-    std::unique_ptr<init::InspectedInterface> geometry;  ///< none for TYPE7, whose normals do not matter
-    std::array<double, 2> facing_at_start{};             ///< NaN: undecided
-    double size = 0.0;                                   ///< mean facet size of the finer side
-    std::vector<Index> nodes;                            ///< of both sides, without repetition
-    std::vector<Vec3> seen;                              ///< their positions at the last look
+    std::array<double, 2> facing_at_start{};  ///< NaN: undecided
+    double size = 0.0;                        ///< mean facet size of the finer side; 0 for TYPE7, whose normals do not matter
     bool turned = false, deep = false, made = false;
   };
   std::shared_ptr<RunFindings> log_;
@@ -41,7 +38,6 @@ class ContactWatch final : public cycle::Sink {
   std::int64_t next_look_cycle_ = 0;  ///< no look before this cycle: a look costs about as much as some cycles
 
   void look(const cycle::Snapshot& now);
-  [[nodiscard]] static bool has_moved(const Watched& w, std::span<const Vec3> x);
   /// Whom it concerns.
   struct Where {
     std::vector<Id> nodes;

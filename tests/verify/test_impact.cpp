@@ -184,18 +184,22 @@ TEST(BarOnAWall, MeetsTheIdealAnswerThroughARigidWall) {
 //   is free of stress with v = v0. Period 1 + 2/3 + 2 + 2/3 + 1 = 16/3; the third impact is the first one again.
 // At a third of shortening, with bricks of small strain: their energy is the work of their forces, on the frozen volume. (On the mean
 // volume of the step, the rule of the reference program, it is wrong by the step times the rate of volume: 0.2 of the balance at 0.6 of the
-// step.) ERR at 0.8, 0.6, 0.3 of the step: 5.4e-3, 2.3e-3, 3e-5. At 0.9 the ringing of 200 elements still grows in the second flight.
+// step.) Without contact the tangent is that of the start, the limit of the bar l/c; the step stays between 0.95 of that times its factor
+// and once. Nothing damps this bar, so the step must also be steady: one that follows the ringing (a bound of the element that counts all
+// of the stress does, by some per cent) feeds it [Skeel 1993, BIT 33, 172-175] until the balance breaks in the second flight at 0.9, though
+// it is below 0.85 of the limit all the time and a constant one of 0.78 keeps the energy.
 struct Bounces {
   std::vector<double> begin, end;
   double height = 0.0;  // of the bottom between the second and third impact
   double worst_error = 0.0;
+  double shortest = 1e30, longest = 0.0;  // step in the flights, of the limit l/c
 };
 
-Bounces bounce(int cells, double s, double end = 7.5) {
+Bounces bounce(int cells, double s, double end = 7.5, double scale = 0.9) {
   Bar b{10.0, 1.0, 900.0, 1.0, 0.0, cells, s};
   Model m(b, 5.0, false);
   m.scene.gravity(2, -10.0);
-  m.scene.end(end, 0.0, 0.8);
+  m.scene.end(end, 0.0, scale);
   Recorder recorder({m.bar.at(0, 0, 0)});
   const auto report = abut::cycle::run(m.scene.model, {}, recorder);
   EXPECT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished) << report.outcome.message;
@@ -212,20 +216,36 @@ Bounces bounce(int cells, double s, double end = 7.5) {
     }
     out.end.back() = sample.time + sample.dt;
   }
-  std::printf("[found] bouncing bar: s %.3g, gap 0, 1 x 1 x %d:", s, cells);
+  // Up to 20 steps before a contact it is foreseen, and after one the step grows by a tenth in each cycle.
+  const double limit = b.length / b.cells / b.wave();
+  const double margin = 20.0 * limit;
+  for (const auto& sample : recorder.samples) {
+    bool flies = !out.end.empty() && sample.time > out.end.front();
+    for (std::size_t i = 0; i < out.begin.size(); ++i) {
+      flies = flies && (sample.time < out.begin[i] - margin || sample.time > out.end[i] + margin);
+    }
+    if (!flies) continue;
+    out.shortest = std::min(out.shortest, sample.dt / limit);
+    out.longest = std::max(out.longest, sample.dt / limit);
+  }
+  std::printf("[found] bouncing bar at %.2g of the step: s %.3g, gap 0, 1 x 1 x %d:", scale, s, cells);
   for (std::size_t i = 0; i < out.begin.size(); ++i) std::printf(" [%.4f %.4f]", out.begin[i], out.end[i]);
-  std::printf(" height %.4f, worst ERR %.2e\n", out.height, out.worst_error);
+  std::printf(" height %.4f, worst ERR %.2e, step in flight %.4f to %.4f of l/c\n", out.height, out.worst_error, out.shortest, out.longest);
   return out;
 }
 
 TEST(BouncingBar, KeepsItsPeriodOverThreeBounces) {
-  const Bounces r = bounce(200, 2.0);
-  ASSERT_EQ(r.begin.size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(r.end[i] - r.begin[i], 2.0 / 3.0, 0.02 * 2.0 / 3.0) << "impact " << i + 1;
-  EXPECT_NEAR(r.begin[2] - r.begin[0], 16.0 / 3.0, 0.02 * 16.0 / 3.0);
-  EXPECT_NEAR(r.begin[0], 1.0, 0.002);
-  EXPECT_NEAR(r.height, 5.0, 0.02 * 5.0) << "the bar comes back to where it was dropped";
-  EXPECT_LT(r.worst_error, 0.01);
+  for (const double scale : {0.9, 0.8, 0.3}) {
+    const Bounces r = bounce(200, 2.0, 7.5, scale);
+    ASSERT_EQ(r.begin.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(r.end[i] - r.begin[i], 2.0 / 3.0, 0.02 * 2.0 / 3.0) << "impact " << i + 1;
+    EXPECT_NEAR(r.begin[2] - r.begin[0], 16.0 / 3.0, 0.02 * 16.0 / 3.0);
+    EXPECT_NEAR(r.begin[0], 1.0, 0.002);
+    EXPECT_NEAR(r.height, 5.0, 0.02 * 5.0) << "the bar comes back to where it was dropped";
+    EXPECT_LT(r.worst_error, 0.01);
+    EXPECT_LE(r.longest, scale * (1 + 1e-12));
+    EXPECT_GT(r.shortest, 0.95 * scale);
+  }
 }
 
 TEST(BouncingBar, ApproachesTheExactPeriodAsTheMeshRefines) {

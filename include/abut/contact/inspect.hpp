@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -102,6 +103,22 @@ struct Facing {
 /// Both sides; a side without facets has an empty answer. O(F log F).
 /// @pre indices lie inside x, see the head of this file; velocities, masses and stiffnesses are not looked at
 [[nodiscard]] std::array<Facing, 2> facing(const InspectionInput& input);
+
+/// facing() of the same facets and nodes again and again, as they move: how they connect is found in the first look.
+class FacingWatch {
+ public:
+  FacingWatch();
+  ~FacingWatch();
+  FacingWatch(FacingWatch&&) noexcept;
+  FacingWatch& operator=(FacingWatch&&) noexcept;
+
+  /// @pre facets, and nodes of a set, are those of the first look
+  [[nodiscard]] std::array<Facing, 2> look(const InspectionInput& input);
+
+ private:
+  struct Known;
+  std::unique_ptr<Known> known_;
+};
 
 /// Which facets to reverse so that each side is oriented alike and faces the other.
 struct Orientation {

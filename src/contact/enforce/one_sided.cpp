@@ -35,6 +35,7 @@ void check(const Options& o) {
 
 // Sums over nodes run over pieces of so many nodes, then over the pieces: their order does not depend on threads.
 constexpr std::size_t piece = 512;
+static_assert(piece % SideLoads::block == 0);
 std::size_t pieces(std::size_t nodes) { return (nodes + piece - 1) / piece; }
 
 bool canonical(const Options& o) { return o.rules.edges == Edges::closest; }
@@ -194,18 +195,24 @@ std::array<Motion, 2> OneSided::gather(const HostState& host) {
     if (committed_) side_[k].swap_positions(loads_[k].x_before);
     std::vector<MotionPart>& parts = parts_[k];
     parts.resize(pieces(at(side_[k].node_count())));
+    MotionArgs args{&side_[k].x().data()->x, &loads_[k].x_before.data()->x,  &host.v.data()->x, side_[k].nodes().data(), host.dt, {},
+                    static_cast<int>(1 - k), loads_[k].squared_motion.data()};
+    for (int c = 0; c < 2; ++c) {
+      for (int axis = 0; axis < 3; ++axis) args.common[c][axis] = common[static_cast<std::size_t>(c)][axis];
+    }
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
       side_[k].gather(host.x, begin, end);
-      const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
-      const std::span<Vec3> before = std::span(loads_[k].x_before).subspan(begin, end - begin);
-      if (!started_) std::copy(x.begin(), x.end(), before.begin());
-      parts[begin / piece] = {sum_of_motions(x, before), largest_motion(x, before, common[0], common[1])};
+      if (!started_) {
+        const std::span<const Vec3> x = side_[k].x().subspan(begin, end - begin);
+        std::copy(x.begin(), x.end(), loads_[k].x_before.begin() + static_cast<std::ptrdiff_t>(begin));
+      }
+      parts[begin / piece] = motion_kernel()(args, begin, end);
     });
     Vec3 sum{};
     for (const MotionPart& part : parts) {
-      sum += part.sum;
-      largest[k].from_a = std::max(largest[k].from_a, part.largest.from_a);
-      largest[k].from_b = std::max(largest[k].from_b, part.largest.from_b);
+      sum += Vec3{part.sum[0], part.sum[1], part.sum[2]};
+      largest[k].from_a = std::max(largest[k].from_a, part.largest[0]);
+      largest[k].from_b = std::max(largest[k].from_b, part.largest[1]);
     }
     largest[k] = {std::sqrt(largest[k].from_a), std::sqrt(largest[k].from_b)};
     if (!parts.empty() && host.dt > 0.0) mean_velocity_[k] = sum / (static_cast<double>(side_[k].node_count()) * host.dt);
@@ -229,16 +236,17 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
 
   for (std::size_t k = 0; k < 2; ++k) {
     SideLoads& loads = loads_[k];
-    loads.work_parts.resize(pieces(loads.node.size()));
+    loads.work_parts.resize(pieces(loads.loaded.size()));
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
       double work = 0.0;
       for (std::size_t s = begin; s < end; ++s) {
         if (loads.loaded[s] == 0) continue;
-        const Vec3 f = loads.node[s].total();
-        work += dot(0.5 * (loads.force_before[s] + f), side_[k].x()[s] - loads.x_before[s]);
+        const SideLoads::Node& load = loads.node(s);
+        const Vec3 f = load.total();
+        work += dot(0.5 * (load.force_before + f), side_[k].x()[s] - loads.x_before[s]);
         const std::size_t node = at(side_[k].nodes()[s]);
         force[node] += f;
-        stiffness[node] += loads.node[s].own_stiffness + loads.node[s].reaction_stiffness;
+        stiffness[node] += load.own_stiffness + load.reaction_stiffness;
       }
       loads.work_parts[begin / piece] = work;
     });
@@ -291,7 +299,7 @@ void OneSided::commit(double) {
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         if (loads.loaded[s] == 0) continue;
-        loads.force_before[s] = loads.node[s].total();
+        loads.node(s).force_before = loads.node(s).total();
         loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
       }
     });
@@ -310,9 +318,10 @@ void OneSided::commit(double) {
 
 void OneSided::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {
   for (std::size_t k = 0; k < 2; ++k) {
-    for (std::size_t s = 0; s < loads_[k].node.size(); ++s) {
+    for (std::size_t s = 0; s < loads_[k].loaded.size(); ++s) {
+      if ((loads_[k].loaded[s] & SideLoads::now) == 0) continue;
       const std::size_t node = at(side_[k].nodes()[s]);
-      const SideLoads::Node& load = loads_[k].node[s];
+      const SideLoads::Node& load = loads_[k].node(s);
       normal[node] += load.own_normal + load.reaction_normal;
       tangential[node] += load.own_tangential + load.reaction_tangential;
     }
@@ -346,7 +355,7 @@ void OneSided::save(HistoryWriter& out) const {
   for (std::size_t k = 0; k < 2; ++k) {
     out.put(loads_[k].work);
     out.put(mean_velocity_[k]);
-    out.put_all(loads_[k].force_before);
+    out.put_all(loads_[k].forces_before());
     if (committed_) {
       out.put_all(side_[k].x());
     } else {
@@ -368,12 +377,12 @@ void OneSided::load(HistoryReader& in) {
   in.get(start_work_);
   in.get(stepped_work_);
   for (std::size_t k = 0; k < 2; ++k) {
-    loads_[k].clear(0, loads_[k].loaded.size());  // an evaluation that was not committed leaves nothing behind
     in.get(loads_[k].work);
     in.get(mean_velocity_[k]);
-    in.get_all(loads_[k].force_before);
+    std::vector<Vec3> force(loads_[k].loaded.size());
+    in.get_all(force);
+    loads_[k].set_forces_before(force);
     in.get_all(loads_[k].x_before);
-    std::fill(loads_[k].loaded.begin(), loads_[k].loaded.end(), static_cast<std::uint8_t>(SideLoads::now | SideLoads::before));
   }
   for (Pass& pass : pass_) pass.load(in);
   stepped_ = false;

@@ -35,10 +35,6 @@ class OneSided final : public InterfaceModel {
   std::array<Side, 2> side_;
   std::array<SideLoads, 2> loads_;
   Executor executor_;
-  struct MotionPart {
-    Vec3 sum;
-    TwoLargest largest;
-  };
   std::array<std::vector<MotionPart>, 2> parts_;
   std::vector<Pass> pass_;  ///< [0]: nodes of side 0 on side 1; [1]: the reverse
   std::vector<Index> in_contact_, crossed_, lost_;

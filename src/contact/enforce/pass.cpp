@@ -11,7 +11,9 @@ namespace abut::contact {
 namespace {
 
 constexpr Index group = NodeStates::group;  // nodes handled together (numerics.md 7.3.1)
-constexpr double unknown_due = -1e300;      // of a group in which some node is awake
+constexpr auto block = static_cast<Index>(SideLoads::block);
+static_assert(group % block == 0);
+constexpr double awake_now = -1e300;  // due of a block in which some node is awake
 
 // Share of an offset that a gradual start leaves from `before` to `now`: of the first offset 1 - u^2 (3 - 2u) is left at u = t/T
 // after birth, which begins and ends at no speed.
@@ -27,16 +29,37 @@ double kept_share(const Options& options, double before, double now) {
 }  // namespace
 
 void SideLoads::resize(std::size_t nodes) {
-  node.resize(nodes);
-  for (std::vector<Vec3>* v : {&force_before, &x_before}) v->resize(nodes);
+  x_before.resize(nodes);
   loaded.resize(nodes);
+  squared_motion.resize((nodes + block - 1) / block);
+  pages_.resize((nodes + page - 1) / page);
 }
 
 void SideLoads::clear(std::size_t begin, std::size_t end) {
   for (std::size_t s = begin; s < end; ++s) {
     if ((loaded[s] & now) == 0) continue;
-    node[s] = {};
+    Node& one = node(s);
+    const Vec3 force = one.force_before;
+    one = {};
+    one.force_before = force;
     loaded[s] &= before;
+  }
+}
+
+std::vector<Vec3> SideLoads::forces_before() const {
+  std::vector<Vec3> force(loaded.size());
+  for (std::size_t s = 0; s < loaded.size(); ++s) {
+    if (loaded[s] != 0) force[s] = node(s).force_before;
+  }
+  return force;
+}
+
+void SideLoads::set_forces_before(std::span<const Vec3> force) {
+  clear(0, loaded.size());  // an evaluation that was not committed leaves nothing behind
+  for (std::size_t s = 0; s < loaded.size(); ++s) {
+    if (loaded[s] == 0 && squared_norm(force[s]) == 0.0) continue;
+    load(static_cast<Index>(s)).force_before = force[s];
+    loaded[s] = now | before;
   }
 }
 
@@ -144,30 +167,38 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
   const auto covers = [&](Index i) { return covered_[at(i)] = reach_of(i); };
   const bool renewed = candidates_.update(held, surface, motion, covers, skin_, stale_ || outgrown_, executor_);
   outgrown_ = false;
-  if (renewed) group_due_.assign((at(held.node_count()) + at(group) - 1) / at(group), unknown_due);
+  if (renewed) block_due_.assign((at(held.node_count()) + at(block) - 1) / at(block), {awake_now, awake_now});
   stale_ = false;
   mean_step_ = motion.mean;
-  held_step_ = motion.held;
   surface_step_ = motion.surface;
 }
 
 bool Pass::asleep(const Scene& scene, Index i) {
   const std::uint8_t quiet = quiet_[at(i)];
   if (quiet == awake || scene.host.dt <= 0.0) return false;
+  if (quiet == beyond_reach) {
+    return stays_beyond(squared_motion(scene.host, scene.held, scene.held_loads, i), candidates_.nearest_due(i));
+  }
   if (quiet == nothing_listed && !candidates_.of(i).empty()) return false;
   return far(scene.host, scene.held, scene.surface, scene.held_loads, i);
 }
 
-bool Pass::group_asleep(const Scene& scene, std::size_t number) const {
-  if (!closest() || scene.host.dt <= 0.0 || group_due_[number] == unknown_due) return false;
-  const double clear = clearance(group_due_[number]);
-  if (!(held_step_ < clear)) return false;
-  const auto first = static_cast<Index>(number) * group;
-  double coming = 0.0;
-  for (Index i = first; i < std::min(first + group, scene.held.node_count()); ++i) {
-    coming = std::max(coming, squared_norm(scene.host.dt * scene.host.v[at(scene.held.nodes()[at(i)])] - mean_step_));
+bool Pass::block_asleep(const Scene& scene, std::size_t number) const {
+  if (!closest() || scene.host.dt <= 0.0) return false;
+  const Due& due = block_due_[number];
+  const double motion = scene.held_loads.squared_motion[number];
+  return clears(motion, due.in_front) && stays_beyond(motion, due.beyond);
+}
+
+void Pass::settle_block(std::size_t number) {
+  Due due;
+  const auto first = static_cast<Index>(number) * block;
+  for (Index i = first; i < std::min(first + block, static_cast<Index>(quiet_.size())); ++i) {
+    const std::uint8_t quiet = quiet_[at(i)];
+    double& one = quiet == beyond_reach ? due.beyond : due.in_front;
+    one = std::min(one, quiet == awake ? awake_now : candidates_.nearest_due(i));
   }
-  return coming < clear * clear;
+  block_due_[number] = due;
 }
 
 void Pass::measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums) {
@@ -190,20 +221,27 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
   for (std::vector<Index>* list : {&sums.in_contact, &sums.crossed, &sums.lost}) list->clear();
   sums.further.clear();
   sums.outgrown = false;
-  if (group_asleep(scene, number)) return;
+  const std::size_t first_block = at(first) / SideLoads::block, end_block = (at(last) + SideLoads::block - 1) / SideLoads::block;
+  std::array<bool, at(group / block)> sleeps;
+  bool all = true;
+  for (std::size_t b = first_block; b < end_block; ++b) all = (sleeps[b - first_block] = block_asleep(scene, b)) && all;
+  if (all) return;
   NodeStates::Loan loan(states_, number, work.scratch);
   std::array<Touch, at(group)>& touches = work.touches;
   HeldBatch& batch = work.batch;
   constexpr int none = -1;
   const bool batches = in_batches(host);
-  const Index block = batches ? HeldBatch::size : group;
   std::array<Index, at(group)> nodes;
   std::array<int, at(group)> lane;
-  for (Index begin = first; begin < last; begin += block) {
+  for (Index i = first; i < last;) {
     std::size_t count = 0;
     bool any = false;
     batch.count = 0;
-    for (Index i = begin; i < std::min(begin + block, last); ++i) {
+    for (; i < last && batch.count < HeldBatch::size; ++i) {
+      if (i % block == 0 && sleeps[at(i - first) / at(block)]) {
+        i += block - 1;
+        continue;
+      }
       if (asleep(scene, i)) continue;
       loan.wake(i);
       lane[count] = none;
@@ -218,35 +256,31 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
     }
     if (batch.count > 0) run_batch(scene, batch);
     for (std::size_t k = 0; k < count && batch.count > 0; ++k) {
-      const Index i = nodes[k];
       if (lane[k] == none) continue;
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
-      if (ordinary && alone(scene, batch, lane[k], i, sums)) continue;
+      if (ordinary && alone(scene, batch, lane[k], nodes[k], sums)) continue;
       Touch& touch = touches[k];
-      measure(scene, i, touch, sums);
+      measure(scene, nodes[k], touch, sums);
       any = any || touch.contact;
-      const bool same = ordinary && touch.contact && touch.facet == states_.before(i).facet && touch.further == 0;
+      const bool same = ordinary && touch.contact && touch.facet == states_.before(nodes[k]).facet && touch.further == 0;
       if (!same) lane[k] = none;
     }
     for (std::size_t k = 0; k < count; ++k) {
-      const Index i = nodes[k];
-      quiet_[at(i)] = awake;
+      quiet_[at(nodes[k])] = awake;
       if (lane[k] != none) {
-        finish_ordinary(scene, batch, lane[k], i, sums);
+        finish_ordinary(scene, batch, lane[k], nodes[k], sums);
         continue;
       }
       // 7.4.3: anchors are looked at only in groups in which somebody touches.
-      finish_node(host, held, surface, held_loads, i, touches[k], any, sums);
-      if (!touches[k].contact) end_contact(scene, i, touches[k], any, sums);
+      finish_node(host, held, surface, held_loads, nodes[k], touches[k], any, sums);
+      if (!touches[k].contact) end_contact(scene, nodes[k], touches[k], any, sums);
     }
     loan.settle(std::span(nodes).first(count));
   }
   if (!closest()) return;
-  double due = 1e300;
-  for (Index i = first; i < last && due != unknown_due; ++i) {
-    due = quiet_[at(i)] == awake ? unknown_due : std::min(due, candidates_.nearest_due(i));
+  for (std::size_t b = first_block; b < end_block; ++b) {
+    if (!sleeps[b - first_block]) settle_block(b);
   }
-  group_due_[number] = due;
 }
 
 void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums) {
@@ -278,8 +312,8 @@ void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any
   }
   if (!closest()) return;
   const bool nothing = candidates_.of(i).empty();
-  if ((touch.far || nothing) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
-    quiet_[at(i)] = nothing ? nothing_listed : out_of_reach;
+  if ((touch.far || nothing || touch.away) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
+    quiet_[at(i)] = nothing ? nothing_listed : touch.far ? in_front : beyond_reach;
   }
 }
 
@@ -287,11 +321,10 @@ void Pass::add_reactions(const GroupSums& sums, const Side& surface, SideLoads& 
   for (const Reaction& r : sums.reactions) {
     const std::array<Index, 4>& corner = surface.surface().local()[at(r.facet)];
     for (std::size_t k = 0; k < 4; ++k) {
-      SideLoads::Node& node = surface_loads.node[at(corner[k])];
+      SideLoads::Node& node = surface_loads.load(corner[k]);
       node.reaction_normal += r.normal[k];
       node.reaction_tangential += r.weight[k] * r.tangential;
       node.reaction_stiffness += std::abs(r.weight[k]) * r.stiffness;
-      surface_loads.loaded[at(corner[k])] |= SideLoads::now;
     }
   }
 }

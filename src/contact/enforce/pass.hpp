@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,21 +15,25 @@
 #include "contact/enforce/pair.hpp"
 #include "contact/search/candidates.hpp"
 #include "contact/search/incremental.hpp"
+#include "contact/search/motion_kernel.hpp"
 #include "contact/search/nearest.hpp"
 
 namespace abut::contact {
 
 /// Contact forces on the nodes of a side: from being held, and as corners of facets that hold others. Kept apart so that
-/// neither the order of the passes nor that of the surfaces shows in the sums.
+/// neither the order of the passes nor that of the surfaces shows in the sums. Most nodes of a surface have none: memory is taken by pages.
 struct SideLoads {
   struct Node {
     Vec3 own_normal, own_tangential, reaction_normal, reaction_tangential;
     double own_stiffness = 0.0, reaction_stiffness = 0.0;
+    Vec3 force_before;  ///< of the last committed step
 
     [[nodiscard]] Vec3 total() const { return (own_normal + own_tangential) + (reaction_normal + reaction_tangential); }
   };
-  std::vector<Node> node;
-  std::vector<Vec3> force_before, x_before;  ///< of the last committed step
+  std::vector<Vec3> x_before;  ///< of the last committed step
+  /// Per block of nodes: the largest square of a node's motions in the last and in the coming step, less the other side's mean motion.
+  static constexpr std::size_t block = MotionArgs::block;
+  std::vector<double> squared_motion;
   /// Which of them can be other than zero: the loads of this step, the force of the last.
   static constexpr std::uint8_t now = 1, before = 2;
   std::vector<std::uint8_t> loaded;
@@ -39,6 +44,23 @@ struct SideLoads {
   void resize(std::size_t nodes);
   /// Those of nodes begin to end - 1.
   void clear(std::size_t begin, std::size_t end);
+  /// @pre loaded[s] != 0
+  [[nodiscard]] Node& node(std::size_t s) { return pages_[s / page][s % page]; }
+  [[nodiscard]] const Node& node(std::size_t s) const { return pages_[s / page][s % page]; }
+  /// Node i, which is loaded in this step. Nodes of a group belong to one thread at a time.
+  [[nodiscard]] Node& load(Index i) {
+    const std::size_t s = at(i);
+    if (pages_[s / page] == nullptr) pages_[s / page] = std::make_unique<Node[]>(page);
+    loaded[s] |= now;
+    return node(s);
+  }
+  /// #nodes
+  [[nodiscard]] std::vector<Vec3> forces_before() const;
+  void set_forces_before(std::span<const Vec3> force);
+
+ private:
+  static constexpr std::size_t page = NodeStates::group;
+  std::vector<std::unique_ptr<Node[]>> pages_;
 };
 
 struct PassTotals {
@@ -92,6 +114,7 @@ class Pass {
     bool widens = false;
     bool lost = false;  ///< was held, and is now beyond the end of a free border, or went through and over it in one step
     bool far = false;   ///< cannot touch now or in the coming step: not measured
+    bool away = false;  ///< beyond reach: nothing is said of it
     std::array<double, 4> weight{};
     Vec3 point, normal;
     double distance = 0.0;
@@ -150,7 +173,11 @@ class Pass {
   static constexpr double flight_share = 0.1;  // of a facet: nodes that fly further in a step look ahead on their own
   static_assert(1.5 * step_growth * passed_over < 1.0 && 0.5 / passed_over > step_growth);
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
-  enum Quiet : std::uint8_t { awake, out_of_reach, nothing_listed };
+  enum Quiet : std::uint8_t { awake, in_front, nothing_listed, beyond_reach };
+  // Of a block of nodes that are all quiet, when the first of them is due: of those in front (or without facets), of those beyond reach.
+  struct Due {
+    double in_front = 1e300, beyond = 1e300;
+  };
   struct Kinematics {
     double rate = 0.0;  ///< of opening, n.(v - v_point)
     Vec3 tangential_velocity;
@@ -182,9 +209,9 @@ class Pass {
   Executor executor_;
   Candidates candidates_;
   IncrementalSearch incremental_;
-  double held_step_ = 0.0, surface_step_ = 0.0;  ///< largest motions in the last step, relative to the surface's mean
+  double surface_step_ = 0.0;  ///< largest motion of a surface node in the last step, relative to the surface's mean
   Vec3 mean_step_;
-  std::vector<double> group_due_;  ///< per group of nodes: smallest nearest_due() where all are quiet, else unknown_due
+  std::vector<Due> block_due_;
 
   [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, Depth p, bool widens) const;
   [[nodiscard]] PairForce force_of(const Side& held, const Side& surface, const Measure& m, Index i, double gap, bool widens) const {
@@ -242,7 +269,11 @@ class Pass {
   [[nodiscard]] double opening_of(const Side& held, const Side& surface, Index i) const;
   /// True while the node cannot touch, now or in the coming step.
   [[nodiscard]] bool far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i);
+  /// Quiet, and still without anything to say.
   [[nodiscard]] bool asleep(const Scene& scene, Index i);
+  /// The same of all nodes of a block at once, or false.
+  [[nodiscard]] bool block_asleep(const Scene& scene, std::size_t number) const;
+  void settle_block(std::size_t number);
   /// Larger of the squares of a node's motions in the last and in the coming step, relative to the surface's mean.
   [[nodiscard]] double squared_motion(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const;
   /// Neither motion comes near the share of the way that may be passed over, when the nearest facet is due at `due`.
@@ -258,8 +289,11 @@ class Pass {
   }
   /// A held node whose facets are asked for within this distance may soon need more than its list has.
   [[nodiscard]] bool outgrows(Index i, double distance) const { return distance + flight_share * size_ > covered_[at(i)]; }
-  /// The same for all nodes of a group at once, or false.
-  [[nodiscard]] bool group_asleep(const Scene& scene, std::size_t number) const;
+  /// A node that was beyond reach still is, and neither motion is one that the swept test or look_ahead() asks about.
+  [[nodiscard]] bool stays_beyond(double squared_motion, double due) const {
+    const double still = std::min(smallest_depth_ - surface_step_, (reach() - largest_gap_ - 2.0 * surface_step_) / (1.5 * step_growth));
+    return still > 0.0 && squared_motion < still * still && due - candidates_.clock() > (1.0 + 1e-9) * reach();
+  }
   /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
   [[nodiscard]] double clearance(double due) const {
     return passed_over * std::min(smallest_depth_, due - candidates_.clock() - largest_gap_) - surface_step_;

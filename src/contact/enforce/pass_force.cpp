@@ -54,8 +54,7 @@ void Pass::look_ahead(const HostState& host, const Side& held, const Side& surfa
     box.inflate(largest_gap_ + 2.0 * surface_step_);
     if (box.meets(path)) largest = std::max(largest, plain_stiffness(held, surface, i, f));
   });
-  held_loads.node[at(i)].own_stiffness += largest * law_of(largest_gap_).tangent(1e30);
-  held_loads.loaded[at(i)] |= SideLoads::now;
+  held_loads.load(i).own_stiffness += largest * law_of(largest_gap_).tangent(1e30);
 }
 
 double Pass::stepped_without_facet(const HostState& host, const Side& held, const Side& surface, Index i) const {
@@ -162,15 +161,13 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       double spread = 0.0;
       for (const double w : touch.weight) spread += std::abs(w);
       tangent *= 0.5 * (1.0 + spread);
-      held_loads.node[at(i)].own_stiffness += tangent;
-      held_loads.loaded[at(i)] |= SideLoads::now;
+      held_loads.load(i).own_stiffness += tangent;
       reaction.stiffness = tangent;
     }
     if (touch.pair_open && !touch.contact && after.ignored == 0) {
       const double tangent = strip_ahead(host, held, surface, i, touch, motion);
       if (tangent > 0.0) {
-        held_loads.node[at(i)].own_stiffness += tangent;
-        held_loads.loaded[at(i)] |= SideLoads::now;
+        held_loads.load(i).own_stiffness += tangent;
         reaction.stiffness = std::max(reaction.stiffness, tangent);
       }
     }
@@ -300,8 +297,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     on_node += after.damping * touch.normal;
     for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= (share * touch.weight[k] * after.damping) * touch.normal;
   }
-  held_loads.node[at(i)].own_normal = on_node;
-  held_loads.loaded[at(i)] |= SideLoads::now;
+  held_loads.load(i).own_normal = on_node;
   totals.normal += on_node;
 
   after.held = touch.widens ? 2 : 1;
@@ -326,7 +322,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
                                 ? rub_by_anchor(host, surface, touch, limit, before, after, totals)
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
-    held_loads.node[at(i)].own_tangential = -on_surface;
+    held_loads.load(i).own_tangential = -on_surface;
     reaction.tangential = share * on_surface;
     totals.tangential -= on_surface;
   }

@@ -108,7 +108,11 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   // Beyond their reach lists need not hold the nearest facet: what is said and remembered must not depend on how old they are.
   const double away = m.found() ? std::sqrt(m.closest.squared_distance) : 1e300;
   if (was_held || near(host, held, held_loads, i, away)) after.in_front = in_front ? 1 : 0;
-  if (!was_held && away > reach()) m = before.ignored != 0 || before.offset > 0.0 ? nearest_of_all(held, surface, i) : Measure{};
+  if (!was_held && away > reach()) {
+    const bool asks = before.ignored != 0 || before.offset > 0.0;
+    m = asks ? nearest_of_all(held, surface, i) : Measure{};
+    touch.away = !asks;
+  }
   const auto take = [&](const Measure& measure) {
     touch.facet = measure.facet;
     touch.known = true;

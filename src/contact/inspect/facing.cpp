@@ -19,11 +19,20 @@ struct Votes {
 
 double size_of(const Shape& s, Index f) { return std::sqrt(s.area(f)); }
 
-// Nearest points of `b` to the centres of `a`.
-std::vector<NearPoint> sights(const Shape& a, const Shape& b) {
+// Nearest points of `b` to the centres of `a`, where there are any within `radius`.
+std::vector<NearPoint> sights(const Shape& a, const Shape& b, double radius) {
   std::vector<NearPoint> out(at(a.count()));
-  for (Index i = 0; i < a.count(); ++i) out[at(i)] = b.nearest(a.centre(i), 1e150);
+  for (Index i = 0; i < a.count(); ++i) out[at(i)] = b.nearest(a.centre(i), radius);
   return out;
+}
+
+// Smallest distance of the centres of `a` to `b`, or `bound` where it is not less: the search stays short.
+double smallest_distance(const Shape& a, const Shape& b, double bound) {
+  for (Index i = 0; i < a.count(); ++i) {
+    const NearPoint p = b.nearest(a.centre(i), bound);
+    if (p.found()) bound = std::sqrt(p.squared);
+  }
+  return bound;
 }
 
 class Looker {
@@ -132,13 +141,10 @@ double reach_of(const std::array<Shape, 2>& shapes, double smallest, double gap)
 BothViews look(const std::array<Shape, 2>& shapes, double gap) {
   BothViews out = empty_views(shapes);
   if (shapes[0].count() == 0 || shapes[1].count() == 0) return out;
-  const std::array<std::vector<NearPoint>, 2> seen{sights(shapes[0], shapes[1]), sights(shapes[1], shapes[0])};
-  double squared = 1e300;
-  for (const auto& points : seen) {
-    for (const NearPoint& p : points) squared = std::min(squared, p.squared);
-  }
-  out.smallest = std::sqrt(squared);
+  out.smallest = smallest_distance(shapes[1], shapes[0], smallest_distance(shapes[0], shapes[1], 1e150));
   out.reach = reach_of(shapes, out.smallest, gap);
+  const double radius = (1.0 + 1e-9) * out.reach;
+  const std::array<std::vector<NearPoint>, 2> seen{sights(shapes[0], shapes[1], radius), sights(shapes[1], shapes[0], radius)};
   for (std::size_t k = 0; k < 2; ++k) {
     if (!shapes[k].is_nodes()) out.side[k] = Looker(shapes[k], shapes[1 - k], seen[k], seen[1 - k], out.reach).run();
   }
@@ -174,12 +180,28 @@ std::vector<std::array<PieceVote, 2>> piece_votes(const Shape& shape, const Faci
   return votes;
 }
 
-std::array<Facing, 2> facing(const InspectionInput& input) {
-  const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
-  BothViews views = look(shapes, input.gap);
+struct FacingWatch::Known {
+  std::array<Shape, 2> shapes;
+};
+
+FacingWatch::FacingWatch() = default;
+FacingWatch::~FacingWatch() = default;
+FacingWatch::FacingWatch(FacingWatch&&) noexcept = default;
+FacingWatch& FacingWatch::operator=(FacingWatch&&) noexcept = default;
+
+std::array<Facing, 2> FacingWatch::look(const InspectionInput& input) {
+  if (known_ == nullptr) {
+    known_ = std::make_unique<Known>(Known{{Shape(input.side[0], input.x), Shape(input.side[1], input.x)}});
+  } else {
+    for (std::size_t k = 0; k < 2; ++k) known_->shapes[k].move(input.side[k], input.x);
+  }
+  BothViews views = contact::look(known_->shapes, input.gap);
+  for (Shape& shape : known_->shapes) shape.keep_connections();
   for (Views& v : views.side) v.facing.distance = views.smallest;
   return {std::move(views.side[0].facing), std::move(views.side[1].facing)};
 }
+
+std::array<Facing, 2> facing(const InspectionInput& input) { return FacingWatch().look(input); }
 
 Orientation orient(const InspectionInput& input) {
   const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};

@@ -9,16 +9,6 @@
 
 namespace abut::contact {
 
-/// Squared distance of a point to a box; 0 inside.
-[[nodiscard]] inline double squared_distance(const Bounds& box, const Vec3& p) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double d = std::max({0.0, box.low[k] - p[k], p[k] - box.high[k]});
-    sum += d * d;
-  }
-  return sum;
-}
-
 class NearestTree {
  public:
   void build(const std::vector<Bounds>& boxes) {
@@ -26,6 +16,20 @@ class NearestTree {
     std::iota(items_.begin(), items_.end(), 0);
     nodes_.clear();
     if (!boxes.empty()) split(boxes, 0, static_cast<Index>(boxes.size()));
+    nodes_.shrink_to_fit();
+  }
+
+  /// The same items elsewhere.
+  void refit(const std::vector<Bounds>& boxes) {
+    for (std::size_t n = nodes_.size(); n-- > 0;) {  // children have higher numbers
+      Node& node = nodes_[n];
+      node.bounds = {};
+      for (Index k = node.first; k < node.first + node.count; ++k)
+        node.bounds.include(boxes[static_cast<std::size_t>(items_[static_cast<std::size_t>(k)])]);
+      if (node.count > 0) continue;
+      node.bounds.include(nodes_[static_cast<std::size_t>(node.first)].bounds);
+      node.bounds.include(nodes_[static_cast<std::size_t>(node.second)].bounds);
+    }
   }
 
   /// Visits items until none can be nearer than sqrt(limit); `visit(item, limit)` lowers the limit when it finds something nearer.

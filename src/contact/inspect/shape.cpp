@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
 namespace abut::contact {
 namespace {
@@ -72,9 +74,32 @@ Shape::Shape(const InspectedSide& side, std::span<const Vec3> x) : side_(side), 
   }
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  nodes_.shrink_to_fit();
   measure();
   if (!is_nodes()) connect();
   tree_.build(box_);
+}
+
+void Shape::move(const InspectedSide& side, std::span<const Vec3> x) {
+  side_ = side;
+  x_ = x;
+  const std::vector<Index> degenerate = std::exchange(degenerate_, {});
+  bounds_ = {};
+  mean_size_ = 0.0;
+  centre_.clear();
+  box_.clear();
+  measure();
+  if (degenerate != degenerate_) {
+    *this = Shape(side, x);
+    return;
+  }
+  if (!is_nodes()) find_outside();
+  tree_.refit(box_);
+}
+
+void Shape::keep_connections() {
+  const auto release = [](auto&... values) { (std::remove_reference_t<decltype(values)>().swap(values), ...); };  // = {} keeps the memory
+  release(centre_, normal_, area_, box_, shared_);
 }
 
 void Shape::measure() {
@@ -206,21 +231,25 @@ void Shape::find_pieces(std::span<const Index> borders) {
       }
     }
   }
-  // A closed piece whose facets agree: the sign of its volume tells outside from inside.
-  std::vector<double> volume(one_sided_.size(), 0.0);
-  std::vector<std::uint8_t> is_closed(one_sided_.size(), 1);
-  const Vec3 origin = 0.5 * (bounds_.low + bounds_.high);
+  closable_.assign(one_sided_.size(), 1);
   for (Index f = 0; f < n; ++f) {
-    volume[at(piece_[at(f)])] += dot(centre_[at(f)] - origin, area_[at(f)] * normal_[at(f)]);
-    if (turned_[at(f)] != 0) is_closed[at(piece_[at(f)])] = 0;
+    if (turned_[at(f)] != 0) closable_[at(piece_[at(f)])] = 0;
   }
   for (const auto& left_out : {std::span<const Index>(borders), std::span<const Index>(at_junctions_), std::span<const Index>(degenerate_),
                                std::span<const Index>(duplicates_)}) {
-    for (const Index f : left_out) is_closed[at(piece_[at(f)])] = 0;
+    for (const Index f : left_out) closable_[at(piece_[at(f)])] = 0;
   }
+  find_outside();
+}
+
+// A closed piece whose facets agree: the sign of its volume tells outside from inside.
+void Shape::find_outside() {
+  std::vector<double> volume(one_sided_.size(), 0.0);
+  const Vec3 origin = 0.5 * (bounds_.low + bounds_.high);
+  for (Index f = 0; f < count(); ++f) volume[at(piece_[at(f)])] += dot(centre_[at(f)] - origin, area_[at(f)] * normal_[at(f)]);
   closed_.resize(one_sided_.size());
   for (std::size_t p = 0; p < closed_.size(); ++p)
-    closed_[p] = is_closed[p] == 0 || one_sided_[p] != 0 || volume[p] == 0.0 ? 0 : (volume[p] > 0.0 ? 1 : -1);
+    closed_[p] = closable_[p] == 0 || one_sided_[p] != 0 || volume[p] == 0.0 ? 0 : (volume[p] > 0.0 ? 1 : -1);
 }
 
 int Shape::outward(Index f) const {

@@ -23,6 +23,10 @@ struct NearPoint {
 class Shape {
  public:
   Shape(const InspectedSide& side, std::span<const Vec3> x);
+  /// The same facets elsewhere. What connect() finds is found again only where other facets have no area than before.
+  void move(const InspectedSide& side, std::span<const Vec3> x);
+  /// Frees all that move() makes anew, and shared_edges().
+  void keep_connections();
 
   [[nodiscard]] bool is_nodes() const { return side_.facets.empty(); }
   [[nodiscard]] Index count() const { return static_cast<Index>(box_.size()); }  ///< facets, or nodes of a node set
@@ -77,7 +81,7 @@ class Shape {
   std::vector<Index> nodes_, degenerate_, duplicates_, at_junctions_;
   std::vector<Shared> shared_;
   std::vector<Index> piece_;
-  std::vector<std::uint8_t> turned_, one_sided_;
+  std::vector<std::uint8_t> turned_, one_sided_, closable_;  ///< of a piece: no borders, and its normals agree
   std::vector<int> closed_;
   NearestTree tree_;
   Bounds bounds_;
@@ -86,6 +90,7 @@ class Shape {
   void measure();
   void connect();
   void find_pieces(std::span<const Index> borders);
+  void find_outside();
 };
 
 /// Closest point of a triangle [Ericson 2005, 5.1.5].

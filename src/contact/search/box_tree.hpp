@@ -2,6 +2,7 @@
 // leaves out what a box test excludes, and callers take minima with ties broken by index.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "abut/types.hpp"
@@ -31,6 +32,16 @@ struct Bounds {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z && b.low.z <= high.z;
   }
 };
+
+/// Squared distance of a point to a box; 0 inside.
+[[nodiscard]] inline double squared_distance(const Bounds& box, const Vec3& p) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double d = std::max({0.0, box.low[k] - p[k], p[k] - box.high[k]});
+    sum += d * d;
+  }
+  return sum;
+}
 
 class BoxTree {
  public:

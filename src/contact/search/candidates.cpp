@@ -109,13 +109,14 @@ void Candidates::list(const Side& held, const Side& surface, Index node, double 
     for (const Index n : surface.surface().facets()[at(f)].node) {
       if (n == held.nodes()[at(node)]) return;  // nobody touches a facet of its own
     }
-    const double away = std::sqrt(closest_point(widest(surface, f), x).squared_distance);
+    // Lower bounds: who needs the distance measures it.
+    const bool border = surface.borders(f) != 0;
+    const double over = height_over(surface.patch(f), x);
+    double away = std::sqrt(squared_distance(tree_.boxes()[at(f)], x));
+    if (!border) away = std::max(away, over);
     if (away > limit) return;
     entries.push_back({f, true, away});  // the clock shows 0
-    // A free node sees the usual strips.
-    const double usual = surface.borders(f) == 0 ? away : std::sqrt(closest_point(surface.patch(f), x).squared_distance);
-    if (usual <= limit) nearest_[at(node)] = std::min(nearest_[at(node)], usual);
-    if (surface.borders(f) != 0) nearest_[at(node)] = std::min(nearest_[at(node)], height_over(surface.patch(f), x));
+    nearest_[at(node)] = std::min(nearest_[at(node)], border ? std::min(away, over) : away);
   });
   std::sort(entries.begin() + begin, entries.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });
 }

@@ -12,6 +12,10 @@
 //     u.K.u = V [lambda (tr H)^2 + 2 mu |sym H|^2 + stress terms] <= V [lambda* tr G + (2 mu)* g] |u|^2
 //   lambda* = <B V_ref/V - 2/3 G - p>, (2 mu)* = max(2G + p + q, -p - q) + 2.05 s_vM: the tangent of p = B(V_ref/V - 1) and the
 //   initial-stress terms of V sigma P under the Jaumann rate (|D:(Ws - sW)| <= max|eig s| |H|^2, ...). A plastic tangent is softer.
+//   Small strain on axes that do not turn: V and P stay, only D:(Ws - sW) = sum over pairs of axes of 2 D_ij W_ij (s_j - s_i) is left, so
+//     lambda* = B - 2/3 G, (2 mu)* = G + sqrt(G^2 + s:s/2), the larger eigenvalue of a pair's form with |s_i - s_j|^2 <= 2 s:s.
+//   A looser bound costs more than steps: it follows the ringing of the stress, and a step that does so makes a leap-frog unstable
+//   far below its limit [Skeel 1993].
 //   g <= t/3 + sqrt(2/3 (|G|^2 - t^2/3)), t = tr G: exact for G = g 1 and G of rank one [Wolkowicz Styan 1980].
 //   Viscosity lags half a step: stable iff lambda_max(h^2 K + 2 h C) <= 4 M, so with k, c bounds of K/M and C/M
 //     1/h = (c + sqrt(c^2 + 4 k))/4, which is h = (2/omega)(sqrt(1 + xi^2) - xi).
@@ -230,9 +234,14 @@ ABUT_INLINE StabilityTerms<R> stability_terms(const SolidConfig& c, const PointR
   const R zero(0.0);
   const R total = p.pressure + p.viscosity;
   const Sym<R> s{p.stress.xx + total, p.stress.yy + total, p.stress.zz + total, p.stress.xy, p.stress.yz, p.stress.zx};
-  const R von_mises = simd::sqrt(R(1.5) * materials::contract(s, s));
-  const R lambda = simd::max(zero, p.density * R(c.bulk / c.rho_0) - R(2.0 / 3.0 * c.shear) - p.pressure);
-  const R two_mu = simd::max(R(2.0 * c.shear) + total, -total) + R(2.05) * von_mises;
+  const R squared = materials::contract(s, s);
+  R lambda(simd::max(0.0, c.bulk - 2.0 / 3.0 * c.shear)), two_mu;
+  if (c.small_strain && !c.corotational) {
+    two_mu = R(c.shear) + simd::sqrt(R(c.shear * c.shear) + R(0.5) * squared);
+  } else {
+    lambda = simd::max(zero, p.density * R(c.bulk / c.rho_0) - R(2.0 / 3.0 * c.shear) - p.pressure);
+    two_mu = simd::max(R(2.0 * c.shear) + total, -total) + R(2.05) * simd::sqrt(R(1.5) * squared);
+  }
   const R eta = p.density * p.length * (R(c.qb * c.sound) + R(2.0 * c.qa_squared) * p.length * p.compression);
   return {volume_over_mass * (lambda * trace + two_mu * g), volume_over_mass * eta * trace, zero, zero};
 }

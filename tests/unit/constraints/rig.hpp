@@ -67,8 +67,8 @@ struct Rig {
   double external = 0.0;  ///< reference bookings of loads, gravity, imposed motion and walls
   double baseline = 0.0;  ///< kinetic energy at the start
   double kinetic = 0.0;   ///< T*_n of the last cycle
-  double work_loads = 0.0, work_gravity = 0.0, work_conditions = 0.0, work_motions = 0.0, work_walls = 0.0, work_bodies = 0.0,
-         work_forces = 0.0;
+  double work_loads = 0.0, work_gravity = 0.0, work_conditions = 0.0, work_motions = 0.0, work_hold = 0.0, work_walls = 0.0,
+         work_bodies = 0.0, work_forces = 0.0;
 
   explicit Rig(model::Model m, double mass = 1.0, double inertia = 0.0, Profile p = {})
       : model(std::move(m)), profile(p), s(state_of(model, mass, inertia)) {}
@@ -113,6 +113,7 @@ struct Rig {
     external += gravities.book_work(s);
     conditions.apply(s);
     motions.apply(s);
+    bodies.hold(s, conditions, motions);
     external += motions.book_work(s);
     walls.apply(s);
     external += walls.work();
@@ -123,6 +124,7 @@ struct Rig {
     work_gravity += gravities.ledger_work(s);
     work_conditions += conditions.ledger_work(s);
     work_motions += motions.ledger_work(s);
+    work_hold += bodies.hold_work(s);
     work_walls += walls.ledger_work(s);
     work_bodies += bodies.ledger_work(s);
     work_forces += force_work.settle(s, s.f_contact, moment);
@@ -140,7 +142,8 @@ struct Rig {
 
   /// T*_n - T*_0 - all discrete works: zero to rounding.
   [[nodiscard]] double ledger() const {
-    return kinetic - baseline - work_loads - work_gravity - work_conditions - work_motions - work_walls - work_bodies - work_forces;
+    return kinetic - baseline - work_loads - work_gravity - work_conditions - work_motions - work_hold - work_walls - work_bodies -
+           work_forces;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "inspect_scenes.hpp"
 
@@ -114,6 +115,35 @@ TEST(Facing, does_not_depend_on_place_or_listing) {
   EXPECT_NEAR(before[0].area_facing, after[0].area_facing, 1e-12);
   EXPECT_NEAR(before[1].area_facing, after[1].area_facing, 1e-12);
   EXPECT_EQ(after[0].area_away + after[1].area_away, 0.0);
+}
+
+/// T33: a watch that keeps what it found at first says of every later shape what a first look at it says: moved, bent, turned inside out,
+/// with a facet pressed flat for a while.
+TEST(Facing, T33_a_watch_says_what_a_first_look_says) {
+  Pair p;
+  p.facets[0] = p.cylinder(1.0, 20, 6, false);
+  p.facets[1] = p.plate(7, 7, -1.0, 1.0, 1.02, false);
+  const std::vector<Vec3> start = p.x;
+  FacingWatch watch;
+  for (int n = 0; n <= 12; ++n) {
+    const double angle = 0.5 * n, c = std::cos(angle), s = std::sin(angle), turn = n > 8 ? -1.0 : 1.0;
+    for (std::size_t k = 0; k < p.x.size(); ++k) {
+      const Vec3& a = start[k];
+      p.x[k] = {c * turn * a.x - s * a.z + n, a.y * (1.0 + 0.1 * n), s * turn * a.x + c * a.z};
+    }
+    if (n % 3 == 1) {
+      const auto& corners = p.facets[1][24].node;
+      for (const Index i : corners) p.x[static_cast<std::size_t>(i)] = p.x[static_cast<std::size_t>(corners[0])];
+    }
+    const auto fresh = facing(p.input()), watched = watch.look(p.input());
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(fresh[k].facet, watched[k].facet) << n;
+      EXPECT_EQ(fresh[k].area_facing, watched[k].area_facing) << n;
+      EXPECT_EQ(fresh[k].area_away, watched[k].area_away) << n;
+      EXPECT_EQ(fresh[k].distance, watched[k].distance) << n;
+    }
+    EXPECT_GT(fresh[0].area_facing + fresh[0].area_away, 0.0) << n;
+  }
 }
 
 /// Nothing near decides nothing: a wall beside a plate, edge on.

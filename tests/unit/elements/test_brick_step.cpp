@@ -117,6 +117,37 @@ TEST(BrickStep, BoundCoversInitialStress) {
   }
 }
 
+// Small strain keeps its geometry: of a large stress only its rotation enters the tangent, and the bound stays near the limit. Preloads of
+// up to half of the modulus; a third of uniaxial strain without lateral contraction or viscosity moves the bound by less than 2 %.
+TEST(BrickStep, SmallStrainBoundCoversInitialStressAndFollowsItLittle) {
+  Random random(14);
+  for (int i = 0; i < 40; ++i) {
+    auto x = unit_cube();
+    for (Vec3& p : x) p += 0.15 * random.vec();
+    SolidSetup s = with_poisson(i % 2 == 0 ? 0.3 : 0.0);
+    s.property.ismstr = 1;
+    s.property.isolid = 1 + i / 20;
+    const double preload = 0.5 * random();
+    const Sample rest = sample(x, s), r = sample(x, s, preload);
+    EXPECT_LE(r.bound, r.exact * (1 + 1e-6)) << i;
+    EXPECT_GT(r.bound, 0.6 * r.exact) << i;
+    EXPECT_GT(r.bound, 0.9 * rest.bound) << i;
+  }
+  for (const double strain : {-1.0 / 3.0, 1.0 / 3.0}) {
+    SolidSetup s = with_poisson(0.0);
+    s.property.ismstr = 1;
+    s.property.qa = s.property.qb = s.property.h = 0.0;
+    SolidBody body(unit_cube(), one, s);
+    const double rest = body.step(0.0).step;
+    body.set_velocity([&](const Vec3& p) { return Vec3{0, 0, strain * p.z}; });
+    body.advance(1.0);
+    std::fill(body.v.begin(), body.v.end(), Vec3{});
+    const double strained = body.step(0.0).step;
+    EXPECT_LT(strained, rest);
+    EXPECT_GT(strained, 0.98 * rest);
+  }
+}
+
 // Assembled mesh, unequal elements: h = min sqrt(2 m/K) is below the exact limit of the assembled system with viscosity.
 TEST(BrickStep, NodalStepBoundsTheAssembledSystem) {
   Random random(13);

@@ -56,7 +56,7 @@ TEST(KeywordTable, FieldsBehindIdsAndTypesOfTwoWordsAreFound) {
   EXPECT_EQ(find(all, "/SET").fields.front().use.columns.last, 10);
 }
 
-// Every Starter keyword that deck-format.md H.1 marks "must" is read, with its type where it is a set.
+// Every keyword that deck-format.md H.1 marks "must" is read, with its type where it is a set; less LAW36, whose decks stop with its name.
 TEST(KeywordTable, KeywordsThatADeckMayNotDoWithoutAreRead) {
   const std::vector<KeywordSupport> all = starter_keywords();
   for (const char* keyword :
@@ -69,6 +69,8 @@ TEST(KeywordTable, KeywordsThatADeckMayNotDoWithoutAreRead) {
   const std::vector<std::pair<const char*, std::vector<const char*>>> sets{
       {"/GRNOD", {"NODE", "GRNOD", "PART", "SURF", "GENE", "SUBSET", "GRSHEL"}},
       {"/GRSHEL", {"SHEL"}},
+      {"/GRSH3N", {"SH3N"}},
+      {"/GRBRIC", {"BRIC"}},
       {"/SURF", {"PART", "PART/EXT", "PART/ALL", "SEG", "GRSHEL", "GRSH3N", "SURF", "GRBRIC/EXT"}},
       {"/TH", {"NODE", "PART", "SHEL", "SH3N", "BRIC", "INTER", "RWALL", "RBODY"}}};
   for (const auto& [keyword, types] : sets) {
@@ -110,7 +112,10 @@ TEST(KeywordTable, WhatIsNotReadSaysWhy) {
 
 TEST(KeywordTable, EngineKeywordsAreAskedOfTheReader) {
   const std::vector<KeywordSupport> all = engine_keywords();
-  EXPECT_EQ(find(all, "/DT/NODA/CST").treatment, Treatment::taken);
+  for (const char* keyword :
+       {"/RUN", "/TFILE", "/PRINT", "/TITLE", "/DT", "/DT/NODA", "/DT/NODA/CST", "/DTIX", "/ANIM/DT"}) {  // "must" of H.1
+    EXPECT_EQ(find(all, keyword).treatment, Treatment::taken) << keyword;
+  }
   EXPECT_EQ(find(all, "/PROC").treatment, Treatment::harmless);
   EXPECT_EQ(find(all, "/DAMP").treatment, Treatment::refused);
 }

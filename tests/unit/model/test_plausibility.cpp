@@ -49,13 +49,26 @@ TEST(Plausibility, NodesOfARigidBodyPassAWall) {
                        "this wall, because Ikrem = 0 of /RBODY takes secondary nodes out of walls; write 1 where the wall is to stop the "
                        "body"));
   EXPECT_TRUE(build_text(plate(si, "2.1e11", body_with(1) + wall("0"))).messages().empty());
+  // Friction with a filter: free nodes have it, those of bodies that the wall stops do not.
+  const auto rough = [](const char* ifq) {
+    return "/RWALL/PLANE/7\nwall\n" + testing::ints({0, 2, 1, 0}) + testing::reals({"0", "0.2"}).substr(0, 40) + std::string(20, ' ') +
+           testing::field("0.5", 20) + testing::field(ifq, 10) + "\n" + testing::reals({"0", "0", "-1"}) + testing::reals({"0", "0", "1"});
+  };
+  EXPECT_TRUE(
+      build_text(plate(si, "2.1e11", body_with(1) + rough("1")))
+          .has("note: /RWALL/PLANE/7: ifq filters the friction of free nodes; that of 4 nodes of rigid bodies (the first is node 1, of "
+               "rigid body 1) acts in full at once: 0 of ifq filters none"));
+  for (const std::string& quiet :
+       {body_with(1) + rough("0"), body_with(0) + rough("1"), "/GRNOD/NODE/1\nall\n" + testing::ints({1, 2}) + rough("1")}) {
+    EXPECT_FALSE(build_text(plate(si, "2.1e11", quiet)).has("ifq")) << quiet;
+  }
   EXPECT_TRUE(build_text(plate(si, "2.1e11", body + wall("2")))
                   .has("warning: /RWALL/PLANE/7: the wall's initial velocity is not used: its node 2 follows a rigid body, give the "
                        "velocity to the body's "
                        "main node (/INIVEL)"));
 }
 
-TEST(Plausibility, ABodyHeldBesideItsCentre) {
+TEST(Plausibility, ABodyWithAMovingWallBesideItsCentre) {
   const auto deck = [](const char* node, const std::string& held) {
     const std::string text = plate(si, "2.1e11",
                                    "/SENSOR/TIME/2\nlate\n" + testing::reals({"0.001"}) + "/GRNOD/NODE/1\nall\n" +
@@ -64,14 +77,15 @@ TEST(Plausibility, ABodyHeldBesideItsCentre) {
     return with_line(text, "/NODE", 5, testing::ints({5}).substr(0, 10) + node);
   };
   const std::string held = "/GRNOD/NODE/2\nmain\n" + testing::ints({5}) + "/BCS/1\nslide\n   001 000         0         2\n";
+  const std::string wall = "/RWALL/PLANE/7\nwall\n" + testing::field("5", 10) + testing::ints({0, 1, 0}) +
+                           testing::reals({"0", "0", "0", "0"}) + testing::reals({"2", "0", "0", "3"}) + testing::reals({"0", "0", "1"});
   const char* beside = "                 0.5                   0                   0";
   EXPECT_TRUE(
-      build_text(deck(beside, held))
-          .has("warning: /RBODY/1: its main node is held by a condition, an imposed motion or a wall and stays 0.5 beside the centre "
-               "of gravity: the body then moves as if its mass were there, which makes energy when it turns; put node 5 at 0.5 0.5 "
-               "0"));
-  EXPECT_FALSE(build_text(deck(beside, "")).has("centre of gravity"));
-  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0", held)).has("centre of gravity"));
+      build_text(deck(beside, wall))
+          .has("warning: /RBODY/1: its main node carries a moving wall and stays 0.5 beside the centre of gravity: the body then moves as "
+               "if its mass were there, which makes energy when it turns; put node 5 at 0.5 0.5 0"));
+  EXPECT_FALSE(build_text(deck(beside, held)).has("centre of gravity"));
+  EXPECT_FALSE(build_text(deck("                 0.5                 0.5                   0", wall)).has("centre of gravity"));
 }
 
 TEST(Plausibility, TabsAreNamedWhereAFieldCannotBeRead) {

@@ -181,6 +181,9 @@ TEST_F(AnimationTest, LayersOfShellsAreFields) {
 }
 
 TEST_F(AnimationTest, SelectionsThatAreNotComputedAreNamed) {
+  // "must" of deck-format.md H.1
+  EXPECT_TRUE(select_animation_fields({"VECT/VEL", "VECT/DISP", "VECT/CONT", "VECT/PCONT", "ELEM/VONM", "ELEM/EPSP", "ELEM/ENER"})
+                  .left_out.empty());
   EXPECT_EQ(select_animation_fields({"NODA/TEMP", "ELEM/VONM", "NODA/TEMP", "SHELL/TENS/STRAIN/UPPER", "SHELL/TENS/STRESS/0"}).left_out,
             (std::vector<std::string>{"NODA/TEMP", "SHELL/TENS/STRAIN/UPPER", "SHELL/TENS/STRESS/0"}));
 }

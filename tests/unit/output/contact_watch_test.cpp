@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "cycle/contact_facing.hpp"
 #include "support/scene.hpp"
 
 namespace abut::output {
@@ -45,6 +46,8 @@ class Watched : public testing::Test {
   /// Moves the upper plate's nodes to place(X, x of the middle of the node's strip, tau), tau from 0 to 1 over the run.
   const RunFindings& run(const std::function<Vec3(Vec3, double, double)>& place, int cycles = 6000) {
     ContactWatch watch(log_);
+    cycle::ContactFacing facing(scene_.model);
+    facing.look(state_, interfaces_);
     cycle::Snapshot now;
     now.model = &scene_.model;
     now.state = &state_;
@@ -59,6 +62,7 @@ class Watched : public testing::Test {
       }
       state_.times.t = tau * end;
       state_.times.cycle = n;
+      facing.look(state_, interfaces_);
       watch.cycle(now);
     }
     return *log_;

@@ -1,0 +1,198 @@
+// Keywords of deck-format.md H.1 ("must") that no deck of the repository uses: each does in a run what it says.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "abut/run.hpp"
+
+namespace abut {
+namespace {
+
+constexpr double young = 210.0, poisson = 0.3, density = 7.8e-6;  // kg, mm, ms: kN/mm2
+
+std::string ints(const std::vector<int>& fields) {
+  std::string s;
+  for (const int f : fields) s += fmt::format("{:>10}", f);
+  return s + "\n";
+}
+std::string reals(const std::vector<double>& fields) {
+  std::string s;
+  for (const double f : fields) s += fmt::format("{:>20g}", f);
+  return s + "\n";
+}
+std::string nodes(int first, const std::vector<Vec3>& x) {
+  std::string s = "/NODE\n";
+  for (const Vec3& p : x) s += fmt::format("{:>10}", first++) + reals({p.x, p.y, p.z});
+  return s;
+}
+std::string element(const char* keyword, int part, int id, std::vector<int> corners) {
+  corners.insert(corners.begin(), id);
+  return fmt::format("/{}/{}\n", keyword, part) + ints(corners);
+}
+std::string part(int id, int property, int material, int subset = 0) {
+  return fmt::format("/PART/{}\npart\n", id) + ints({property, material, subset});
+}
+std::string group(const char* keyword, int id, const std::vector<int>& members) {
+  return fmt::format("/{}/{}\ngroup\n", keyword, id) + ints(members);
+}
+std::string bcs(const char* code, int nodes_of) { return fmt::format("/BCS/{}\nheld\n   {}         0", nodes_of, code) + ints({nodes_of}); }
+
+const std::string unit_system = "                  kg                  mm                  ms\n";
+/// Steel of small strain: property 1 bricks, 2 shells of 0.1 mm, 3 void of 0.1 mm, 4 bricks without viscosity; material 1 steel, 2 void.
+const std::string materials =
+    "#RADIOSS STARTER\n/BEGIN\nkeywords\n      2022         0\n" + unit_system + unit_system + "/MAT/ELAST/1\nsteel\n" + reals({density}) +
+    reals({young, poisson}) + "/MAT/VOID/2\nvoid\n" + reals({density, young, poisson}) + "/PROP/SOLID/1\nbrick\n" +
+    "         1         1                   0         0         0         0         0                   0\n" + reals({0, 0, 0}) +
+    reals({0}) + "/PROP/SHELL/2\nshell\n" + "         1         1         0         0                                       0\n" +
+    reals({0, 0, 0, 0, 0}) + "         0         0                 0.1                   0                   0         0\n" +
+    "/PROP/VOID/3\nvoid\n" + reals({0.1}) + "/PROP/SOLID/4\nwithout viscosity\n" +
+    "         1         1                   0         0         0         0         0                   0\n" +
+    reals({1e-12, 1e-12, 1e-12}) + reals({0});
+
+std::string engine(double end, const std::string& more = "/DT\n0.9 0.\n") {
+  return fmt::format("/RUN/keywords/1\n{:g}\n/VERS/2022\n/TFILE/4\n{:g}\n/PRINT/-100\n/ANIM/DT\n0. {:g}\n", end, end / 20.0, end) + more;
+}
+
+abut::Run run_of(const std::string& starter, const std::string& engine_deck) {
+  RunSettings settings;
+  settings.threads = 1;
+  settings.allow_findings = true;
+  abut::Run run(Model::from_text({.starter = starter + "/END\n", .engines = {engine_deck}, .name = "keywords"}), settings);
+  run.advance_to_end();
+  EXPECT_EQ(run.outcome().kind, Outcome::Kind::finished) << run.outcome().message;
+  return run;
+}
+
+/// Last value of a column of the time history.
+double last(const abut::Run& run, const std::string& name) {
+  const History& h = run.history();
+  const auto found = std::find(h.names.begin(), h.names.end(), name);
+  if (found == h.names.end()) {
+    ADD_FAILURE() << "no column " << name << " in " << fmt::format("{}", fmt::join(h.names, " "));
+    return 0.0;
+  }
+  return h.values[h.values.size() - h.names.size() + static_cast<std::size_t>(found - h.names.begin())];
+}
+
+const std::vector<Vec3> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+// /IMPDISP, /TETRA4, /TH/BRIC, /TH/SHEL, /TH/SH3N: every node's displacement is 1e-4 x along x. Solids: sigma = (lambda + 2 mu, lambda,
+// lambda) e; shells: E/(1 - nu^2) (1, nu) e. Energy half of sigma e V.
+TEST(Keywords, ImposedDisplacementsStrainEveryElementAsTheyMust) {
+  const double strain = 1e-4;
+  const std::string deck =
+      materials + nodes(1, cube) + nodes(11, square) + nodes(21, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) +
+      nodes(31, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) + part(1, 1, 1) + part(2, 2, 1) + part(3, 2, 1) + part(4, 1, 1) +
+      element("BRICK", 1, 1, {1, 2, 3, 4, 5, 6, 7, 8}) + element("SHELL", 2, 2, {11, 12, 13, 14}) + element("SH3N", 3, 3, {21, 22, 23}) +
+      element("TETRA4", 4, 4, {31, 32, 33, 34}) + group("GRNOD/NODE", 1, {1, 4, 5, 8, 11, 14, 21, 23, 31, 33}) + ints({34}) +
+      group("GRNOD/NODE", 2, {2, 3, 6, 7, 12, 13, 22, 32}) + bcs("111 111", 1) + bcs("011 111", 2) + "/FUNCT/1\nramp and rest\n" +
+      reals({0, 0}) + reals({1, 1}) + reals({2, 1}) + "/IMPDISP/1\nstretch\n         1         X         0         0         2\n" +
+      reals({1, strain, 0, 1e30}) + "/TH/BRIC/1\nbrick\nDEF\n" + ints({1}) + "/TH/SHEL/2\nshell\nDEF\n" + ints({2}) +
+      "/TH/SH3N/3\ntriangle\nDEF\n" + ints({3}) + "/TH/PART/4\nparts\nDEF\n" + ints({1, 2, 3, 4});
+  const abut::Run run = run_of(deck, engine(1.1));
+  const double lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), two_mu = young / (1.0 + poisson);
+  const double along = (lambda + two_mu) * strain, plane = young / (1.0 - poisson * poisson) * strain;
+  EXPECT_NEAR(last(run, "BRIC/1/SX"), along, 1e-9 * along);
+  EXPECT_NEAR(last(run, "BRIC/1/SY"), lambda * strain, 1e-9 * along);
+  EXPECT_NEAR(last(run, "SHEL/2/F1"), plane, 1e-9 * plane);
+  EXPECT_NEAR(last(run, "SHEL/2/F2"), poisson * plane, 1e-9 * plane);
+  EXPECT_NEAR(last(run, "SH3N/3/F1"), plane, strain * plane);  // Ish3n 2 strains with its geometry
+  const std::vector<double> stress = run.element_field(ElementKind::tetra, "stress");
+  ASSERT_EQ(stress.size(), 6U);
+  EXPECT_NEAR(stress[0], along, 1e-9 * along);
+  EXPECT_NEAR(stress[1], lambda * strain, 1e-9 * along);
+  EXPECT_NEAR(last(run, "PART/4/IE"), 0.5 * along * strain / 6.0, 1e-6 * along * strain);
+  EXPECT_NEAR(last(run, "PART/2/IE"), 0.5 * plane * strain * 0.1, 1e-6 * plane * strain);
+  EXPECT_NEAR(run.displacements()[1].x, strain, 1e-15);
+}
+
+// Every way to name the nodes of one plate: they fly, those of the other one stay.
+TEST(Keywords, GroupsOfNodesNameTheSameNodes) {
+  const std::vector<std::string> ways{
+      group("GRNOD/NODE", 1, {1, 2, 3, 4}),
+      group("GRNOD/PART", 1, {1}),
+      group("GRNOD/NODE", 2, {1, 2}) + group("GRNOD/NODE", 3, {3, 4}) + group("GRNOD/GRNOD", 1, {2, 3}),
+      group("SURF/PART", 1, {1}) + group("GRNOD/SURF", 1, {1}),
+      group("GRNOD/GENE", 1, {1, 4}),
+      "/SUBSET/1\nflies\n" + ints({}) + group("GRNOD/SUBSET", 1, {1}),
+      group("GRSHEL/SHEL", 1, {1}) + group("GRNOD/GRSHEL", 1, {1}),
+  };
+  const Vec3 speed{1.0, -2.0, 0.5};
+  for (const std::string& way : ways) {
+    const std::string deck = materials + nodes(1, square) + nodes(11, square) + part(1, 2, 1, 1) + part(2, 2, 1) +
+                             element("SHELL", 1, 1, {1, 2, 3, 4}) + element("SHELL", 2, 2, {11, 12, 13, 14}) + way +
+                             "/INIVEL/TRA/1\nfly\n" + fmt::format("{:>20g}{:>20g}{:>20g}", speed.x, speed.y, speed.z) + ints({1, 0});
+    const abut::Run run = run_of(deck, engine(0.01));
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Vec3 expected = i < 4 ? run.time() * speed : Vec3{};
+      EXPECT_LT(norm(run.displacements()[i] - expected), 1e-14) << way << i;
+    }
+    EXPECT_NEAR(run.balance().ke, 0.5 * density * 0.1 * squared_norm(speed), 1e-18) << way;
+  }
+}
+
+// Every way to name the skin of a brick and a plate of a quadrilateral and two triangles above it: the same contact, impulse twice the
+// momentum for a plate as light as this one would bounce back with.
+TEST(Keywords, SurfacesNameTheSameSegments) {
+  const std::string surface_1 = group("SURF/PART/EXT", 1, {1}), surface_2 = group("SURF/PART", 2, {2, 3});
+  const std::vector<std::string> ways{
+      surface_1 + surface_2,
+      group("SURF/PART/ALL", 1, {1}) + surface_2,
+      group("GRBRIC/BRIC", 1, {1}) + group("SURF/GRBRIC/EXT", 1, {1}) + surface_2,
+      group("SURF/PART/EXT", 3, {1}) + group("SURF/SURF", 1, {3}) + surface_2,
+      surface_1 + group("GRSHEL/SHEL", 1, {2}) + group("GRSH3N/SH3N", 1, {3, 4}) + group("SURF/GRSHEL", 3, {1}) +
+          group("SURF/GRSH3N", 4, {1}) + group("SURF/SURF", 2, {3, 4}),
+      surface_1 + "/SURF/SEG/2\nsegments\n" + ints({1, 11, 12, 13, 14}) + ints({2, 14, 13, 15, 15}) + ints({3, 14, 15, 16, 16}),
+  };
+  double impulse = 0.0;
+  for (const std::string& way : ways) {
+    // The plate's normals point down, to the brick; its nodes are above the inside of the brick's face.
+    const std::string deck =
+        materials + nodes(1, {{-1, -1, -1}, {2, -1, -1}, {2, 2, -1}, {-1, 2, -1}, {-1, -1, 0}, {2, -1, 0}, {2, 2, 0}, {-1, 2, 0}}) +
+        nodes(11, {{0, 0.2, 0.02}, {0, 1.1, 0.02}, {0.5, 1.1, 0.02}, {0.5, 0.2, 0.02}, {1, 1.1, 0.02}, {1, 0.2, 0.02}}) + part(1, 1, 1) +
+        part(2, 2, 1) + part(3, 2, 1) + element("BRICK", 1, 1, {1, 2, 3, 4, 5, 6, 7, 8}) + element("SHELL", 2, 2, {11, 12, 13, 14}) +
+        "/SH3N/3\n" + ints({3, 14, 13, 15}) + ints({4, 14, 15, 16}) + group("GRNOD/PART", 1, {1}) + group("GRNOD/PART", 2, {2, 3}) + way +
+        bcs("111 000", 1) + bcs("110 111", 2) + "/INIVEL/TRA/1\nfall\n" + fmt::format("{:>20g}{:>20g}{:>20g}", 0.0, 0.0, -2.0) +
+        ints({2, 0}) + "/INTER/TYPE3/1\ncontact\n" + ints({1, 2, 0, 0, 0, 0, 0, 0}) + reals({0.2, 0, 0.01, 0, 0}) +
+        "       000         0         0\n" + reals({0});
+    const abut::Run run = run_of(deck, engine(0.02));
+    const double found = run.interfaces()[0].normal_impulse.z;
+    const double momentum = density * 0.1 * 0.9 * 2.0;
+    EXPECT_NEAR(std::fabs(found), 2.0 * momentum, 0.05 * momentum) << way;
+    if (impulse == 0.0) impulse = found;
+    EXPECT_NEAR(found, impulse, 1e-10 * std::fabs(impulse)) << way;
+  }
+}
+
+// A void shell has mass and no stiffness: its nodes keep the velocities they have, whatever that does to it.
+TEST(Keywords, VoidHasMassAndNothingElse) {
+  const std::string deck = materials + nodes(1, square) + part(1, 3, 2) + element("SHELL", 1, 1, {1, 2, 3, 4}) +
+                           group("GRNOD/NODE", 1, {3}) + "/INIVEL/TRA/1\nfly\n" + fmt::format("{:>20g}{:>20g}{:>20g}", 2.0, 1.0, 3.0) +
+                           ints({1, 0}) + "/TH/PART/1\np\nDEF\n" + ints({1});
+  const abut::Run run = run_of(deck, engine(0.1, "/DT\n0.9 0.\n/DTIX\n0.001 0.001\n"));
+  for (const double m : run.masses()) EXPECT_NEAR(m, 0.25 * density * 0.1, 1e-20);
+  EXPECT_LT(norm(run.displacements()[2] - run.time() * Vec3{2, 1, 3}), 1e-13);
+  EXPECT_EQ(norm(run.displacements()[0]), 0.0);
+  EXPECT_EQ(run.balance().ie, 0.0);
+}
+
+// /DT/NODA scales the step of the nodes; /DT/NODA/CST adds the mass that the step asks for, K h^2/(2 s^2). K does not depend on the step
+// without viscosity.
+TEST(Keywords, StepsOfNodesFollowTheirCards) {
+  const std::string deck = materials + nodes(1, cube) + part(1, 4, 1) + element("BRICK", 1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+  const double half = run_of(deck, engine(0.01, "/DT/NODA\n0.5 0.\n")).step();
+  EXPECT_NEAR(run_of(deck, engine(0.01, "/DT/NODA\n0.25 0.\n")).step(), 0.5 * half, 1e-9 * half);
+  const double wanted = 1.5 * half;
+  const abut::Run scaled = run_of(deck, engine(0.01, fmt::format("/DT/NODA/CST\n0.5 {:.17g}\n", wanted)));
+  EXPECT_NEAR(scaled.step(), wanted, 1e-4 * wanted);
+  EXPECT_NEAR(scaled.balance().mass, 2.25 * density, 1e-4 * density);
+  EXPECT_NEAR(scaled.balance().mass - scaled.balance().added_mass, density, 1e-12 * density);
+}
+
+}  // namespace
+}  // namespace abut
