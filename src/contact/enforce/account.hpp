@@ -9,6 +9,8 @@
 // the bodies what is left: with R = -M' and w = v + (h + h') a/4,
 //   J = f (h + h')/2 = m (sqrt(w^2 + 2 R/m) - w),
 // which is exact for a pair alone, whatever its law. m effective mass, a opening acceleration by all other forces.
+// A pair that holds more by the law than it was given on the way there gives no more than that in any cycle (`NodeState::passive`): the
+// same J with R >= 0 bounds its force [Hannaford, Ryu 2002, IEEE Trans. Robotics Automat. 18(1), 1-10: time-domain passivity control].
 #pragma once
 
 #include <algorithm>

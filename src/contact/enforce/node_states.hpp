@@ -39,9 +39,10 @@ struct NodeState {
   std::uint8_t anchored = 0;
   std::uint8_t in_front = 0;  ///< was in front of a facet when it was last in contact or about to be
   std::uint8_t reckoned = 0;  ///< `made` counts
-  std::uint8_t light = 0;  ///< 1: its steps were once long for its stiffness, or it passed over a fold; settled: its last force was tried
+  std::uint8_t light = 0;  ///< 1: its steps were once long for its stiffness, or it passed over a fold; settled: its last force was tried;
+                           ///< passive: it may give no more than it took
   std::array<std::uint8_t, 6> unused{};
-  static constexpr std::uint8_t settled = 2;
+  static constexpr std::uint8_t settled = 2, passive = 3;
   double offset = 0.0;   ///< the gap of this node is smaller by this (initial penetration)
   double damping = 0.0;  ///< damping force of the last step
   Vec3 filtered;         ///< with a filter: filtered trial friction; return mapping: as a slip in the anchor's facet frame

@@ -76,6 +76,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   if (clipped) slope = 0.0;
 
   const double phi = law.potential(p);
+  result.whole = pair;
   result.stiffness = t.value * pair;
   result.of_wider = pair * phi * t.dw * widens;
   result.magnitude = own.slope * (result.stiffness * law.force(p)) + (own.nearest ? result.of_wider : 0.0);

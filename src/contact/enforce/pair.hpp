@@ -33,6 +33,7 @@ struct PairForce {
   double magnitude = 0.0;        ///< kappa phi'(P) = |normal force|
   double potential = 0.0;        ///< Psi
   double stiffness = 0.0;        ///< kappa
+  double whole = 0.0;            ///< Kp
   double of_wider = 0.0;         ///< Kp phi dT/dP, a part of the normal force of the nearest facet
   double extra_tangent = 0.0;    ///< bound of the tangent terms beyond kappa phi''
 };

@@ -232,8 +232,9 @@ class Pass {
   void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
                        const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums);
   /// Adds the facets that are as near as the one in `touch`, and those that store more (pair.hpp).
-  void look_further(const Side& held, const Side& surface, const Measure& m, Index i, double strip, bool was_held, Touch& touch,
-                    GroupSums& sums);
+  /// @param by  what the nearest one, m, was looked for with
+  void look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
+                    Touch& touch, GroupSums& sums);
   /// The pair of facet `nearest` and node i, with whichever of `all` stores the most for it.
   void add_strongest(const Side& held, const Side& surface, Index i, const NormalLaw& law, double gap, bool widens, Further& nearest,
                      std::span<Further> all, double share, PairForce& sum) const;
@@ -249,8 +250,14 @@ class Pass {
   /// Velocity of a held node relative to a material point of the surface.
   [[nodiscard]] static Vec3 velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point);
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
-  /// 1/m of a node with its facet; 0: unknown
-  [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
+  /// 1/m of a node with its facet along a unit vector; 0: unknown
+  [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
+                                    const Vec3& along) const;
+  /// A pair that may give no more than it has taken (account.hpp): it began, or came to a facet or deeper into a strip, where it holds
+  /// more by the law than it was given on the way there.
+  /// @param moved_in  along the normal in the last step
+  /// @param made  account of the pair with this cycle's force
+  [[nodiscard]] bool keeps_its_account(const Touch& touch, const NodeState& before, double moved_in, double made) const;
   /// What leap-frog made by a changed step under the last force of a node that has no facet any more (eroded, moved away, contact over).
   [[nodiscard]] double stepped_without_facet(const HostState& host, const Side& held, const Side& surface, Index i) const;
   /// Stiffness of the strip of a free border that a node behind the gap, beyond the strip's end, may reach in the coming step; 0: none.

@@ -27,12 +27,13 @@ Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const
   return k;
 }
 
-double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const {
+double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
+                          const Vec3& along) const {
   const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  double sum = inverse_mass_of(host, held.nodes()[at(i)], touch.normal);
+  double sum = inverse_mass_of(host, held.nodes()[at(i)], along);
   for (std::size_t c = 0; c < 4; ++c) {
     const double w = touch.weight[c];
-    if (w != 0.0) sum += w * w * inverse_mass_of(host, surface.nodes()[at(corner[c])], touch.normal);
+    if (w != 0.0) sum += w * w * inverse_mass_of(host, surface.nodes()[at(corner[c])], along);
   }
   return sum;
 }
@@ -101,6 +102,16 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   return 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * curvature;
 }
 
+bool Pass::keeps_its_account(const Touch& touch, const NodeState& before, double moved_in, double made) const {
+  constexpr double unpaid = 0.2, at_once = 0.3;  // of what it holds by the law
+  if (!closest() || !settled_ || (before.held != 0 && before.reckoned == 0)) return false;
+  if (before.light == NodeState::passive) return true;
+  if (made <= unpaid * touch.pair.potential) return false;
+  if (before.held == 0) return moved_in < touch.penetration;  // else its first force sees to it
+  const bool in_strip = touch.pair.stiffness < touch.pair.whole;
+  return in_strip || (dot(before.normal, touch.normal) < turns && made - before.made > at_once * touch.pair.potential);
+}
+
 void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                        GroupSums& sums) {
   PassTotals& totals = sums.totals;
@@ -115,7 +126,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
-  const double pair_inverse_mass = touch.contact || options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch) : 0.0;
+  const double pair_inverse_mass =
+      touch.contact || options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch, touch.normal) : 0.0;
   if (touch.full_gap > 0.0 && -motion.rate * host.dt >= -passed_over * penetration) {
     totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / touch.full_gap);
   }
@@ -204,11 +216,13 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * pair_inverse_mass;
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   double stored = touch.pair.potential;
+  const Vec3 velocity = motion.rate * touch.normal + motion.tangential_velocity;
   const double lightness = inverse_mass * touch.pair.stiffness * touch.law.tangent(penetration) * host.dt * host.dt;
   // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
   // comes from in front deeper than its motion along the normal.
   const bool over_fold = closest() && rules.switch_correction && grown == 0.0 &&
                          (fresh ? moved_in <= penetration && before.in_front != 0 : dot(before.normal, touch.normal) < turns);
+  bool passive = false;
   bool settled = before.light == NodeState::settled && motion.rate > 0.0;  // until it turns round
   const bool light = lightness > light_pair || before.light != 0 || over_fold;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
@@ -243,6 +257,19 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       stored = left * touch.pair.potential;
     }
     factor = force / touch.pair.magnitude;
+    const bool is_last = settled && before.light < NodeState::settled;  // it settles the account itself
+    const double along_push = dot(touch.pair.on_node, velocity);
+    passive = grown == 0.0 && !is_last && keeps_its_account(touch, before, moved_in, made + 0.5 * factor * host.dt * along_push + stored);
+    if (passive && factor > 0.0) {
+      // Not more than what is left gives the bodies in the coming step; what it then holds is what it has taken.
+      const double size = norm(touch.pair.on_node);
+      const Vec3 along = touch.pair.on_node / size;
+      const double mobile = (two_passes_ ? 2.0 : 1.0) * this->inverse_mass(host, held, surface, i, touch, along);
+      const double rate = along_push / size;
+      if (mobile > 0.0 || rate > 0.0)
+        factor = std::min(factor, last_force({rate, host.dt, coming, mobile, others, std::max(0.0, -made)}) / size);
+      stored = std::max(0.0, -made - 0.5 * factor * size * rate * host.dt);
+    }
   }
   totals.potential += stored;
   double normal_force = factor * touch.pair.magnitude;
@@ -254,13 +281,13 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   after.stored = stored;
   // Of facets that are equally near the first stands for all.
   after.reckoned = rules.switch_correction && (fresh || before.reckoned != 0) ? 1 : 0;
-  after.light = settled ? NodeState::settled : light ? 1 : 0;
+  after.light = passive ? NodeState::passive : settled ? NodeState::settled : light ? 1 : 0;
   after.made = 0.0;
   if (after.reckoned != 0) {
     after.last = {touch.weight, touch.facet};
-    const Vec3 step = host.dt * (motion.rate * touch.normal + motion.tangential_velocity);
+    const Vec3 step = host.dt * velocity;
     // A first force of the law is made for what it stores; over a fold it is not, and the difference is in the account.
-    if (!fresh || over_fold) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
+    if (!fresh || over_fold || passive) after.made = made + 0.5 * dot(on_node, step) + stored - 0.5 * (before.force + normal_force) * grown;
   }
   after.damping = 0.0;
   if (options_.damping > 0.0 && pair_inverse_mass > 0.0) {

@@ -21,8 +21,8 @@ double Pass::reach_of_stronger(double stiffness, double strongest, double p) con
   return (1.0 - std::sqrt(share)) * p * length / (p + length);
 }
 
-void Pass::look_further(const Side& held, const Side& surface, const Measure& m, Index i, double strip, bool was_held, Touch& touch,
-                        GroupSums& sums) {
+void Pass::look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
+                        Touch& touch, GroupSums& sums) {
   const Vec3 x = held.x()[at(i)];
   const double distance = std::sqrt(m.closest.squared_distance);
   const double size = surface.facet_area(m.facet);
@@ -33,6 +33,12 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   if (outgrows(i, distance + beyond)) sums.outgrown = true;
   const double equal = equally_near * distance;
   touch.first_further = sums.further.size();
+  // Who may not be the nearest of a held node (nearest()) may not store more either: else it would stop to where it comes nearer.
+  const auto may_be_nearest = [&](const Measure& its) {
+    if (by.facet == no_index || pushes_alike(its, by.normal)) return true;
+    return its.distance >= 0.0 &&
+           signed_measure(surface, by.facet, closest_point(extended(surface, by.facet, strip), x), x).distance >= 0.0;
+  };
   for (const Candidates::Entry& entry : candidates_.of(i)) {
     const Index f = entry.facet;
     if (entry.due - candidates_.clock() > (1.0 + equally_near) * distance + beyond || f == m.facet || !surface.active(f)) continue;
@@ -43,6 +49,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
     if (other.beyond) continue;
     const Measure its = signed_measure(surface, f, other, x);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
+    if (!may_be_nearest(its)) continue;
     // The same point, seen from the facet across, is the same contact unless its strip fades elsewhere.
     const bool same = squared_norm(other.point - m.closest.point) < 1e-12 * size;
     if (same && beyond <= 0.0) continue;
@@ -95,6 +102,7 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, const N
     sum.magnitude += of_it * part.magnitude;
     sum.potential += of_it * part.potential;
     sum.stiffness = std::max(sum.stiffness, part.stiffness);
+    sum.whole = std::max(sum.whole, part.whole);
     sum.extra_tangent = std::max(sum.extra_tangent, part.extra_tangent);
   };
   if (most <= (1.0 + equally_strong) * nearest.own.potential) {

@@ -36,7 +36,7 @@ HeldRules Pass::held_rules(const HostState& host) const {
 
 bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   const NodeState& before = states_.before(i);
-  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0 || before.light == NodeState::settled)
+  if (before.held == 0 || before.facet == no_index || before.ignored != 0 || before.offset != 0.0 || before.light >= NodeState::settled)
     return false;
   if (!scene.surface.active(before.facet) || !scene.held.node_active(i)) return false;
   const std::array<Index, 4>& corner = scene.surface.surface().local()[at(before.facet)];

@@ -99,9 +99,9 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   }
   touch.widens = was_held && before.held == 2;
   const double strip = touch.widens ? border_strip + border_widening : border_strip;
+  HeldBy by = was_held ? HeldBy{before.facet, before.normal, strip} : HeldBy{};
   Measure m;
-  if (was_held || !candidates_.of(i).empty())
-    m = nearest(surface, candidates_, i, x, was_held ? HeldBy{before.facet, before.normal, strip} : HeldBy{});
+  if (was_held || !candidates_.of(i).empty()) m = nearest(surface, candidates_, i, x, by);
   const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;
   in_front_[at(i)] = in_front && !touch.widens ? 1 : 0;  // as a free node sees it: without the wider strips of held ones
   if (in_front && !was_held) candidates_.limit_nearest_due(i, lowest_over_borders(surface, candidates_, i, x) + candidates_.clock());
@@ -152,6 +152,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
       const Measure caught = nearest_pushing_alike(held, surface, i, hit);
       if (!caught.closest.beyond && caught.distance < 0.0) {
         m = caught;
+        by = {hit, signed_measure(surface, hit, closest_point(surface.patch(hit), x), x).normal};
         take(m);
         gap = touch.full_gap;
         meets = true;
@@ -179,7 +180,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
                       (was_held || -m.distance <= depth_[at(m.facet)]);
   if (touch.pair_open && !beside) return;
   touch.pair = force_of(held, surface, m, i, gap, touch.widens);
-  if (meets || beside) look_further(held, surface, m, i, strip, was_held, touch, sums);
+  if (meets || beside) look_further(held, surface, m, i, by, strip, was_held, touch, sums);
   touch.contact = (meets || beside) && touch.pair.magnitude > 0.0;
   touch.pair_open = touch.pair_open && !touch.contact;
   if (touch.pair_open) return;

@@ -84,6 +84,8 @@ inline Bounce plates_meet(Rules rules, double gap, double hhk, double shift) {
 struct Path {
   double net = 0.0;      ///< |CX| after the closed path
   double largest = 0.0;  ///< largest CE on it
+  double bound =
+      0.0;  ///< sum of |df . dx|/2: what trapezoidal work can miss of a force that changes from one value to the next within a step
 };
 
 // One node dragged along a closed path without friction: CX over the lap.
@@ -101,9 +103,12 @@ inline Path lap(Rules rules, double gap, const std::vector<Facet>& facets, const
   host.contact(i);
   Path path;
   for (int s = 1; s <= steps; ++s) {
-    x[static_cast<std::size_t>(n)] = where(static_cast<double>(s) / steps);
+    Vec3& node = x[static_cast<std::size_t>(n)];
+    const Vec3 before = node, force_before = host.f[static_cast<std::size_t>(n)];
+    node = where(static_cast<double>(s) / steps);
     host.place(i, x);
     path.largest = std::max(path.largest, host.last.elastic);
+    path.bound += 0.5 * std::abs(dot(host.f[static_cast<std::size_t>(n)] - force_before, node - before));
   }
   path.net = std::abs(host.last.made);
   return path;
@@ -158,17 +163,58 @@ inline Vec3 on_closed_path(const ClosedPathCase& c, double gap, double p, double
   return {x, y, c.height(x, y) + gap - p * (0.8 + 0.2 * std::sin(5.0 * u)) + depth * lift};
 }
 
-/// Net work over the largest stored energy of a lap.
-inline double net_of_lap(const ClosedPathCase& c, Rules rules, double gap, double p, int steps) {
+/// One node along that path over a surface of 6 x 6 facets.
+inline Path walk(const ClosedPathCase& c, Rules rules, double gap, double p, int steps) {
   Host host;
   const auto facets = grid(host, 6, 6, -2.5, 2.5, -2.5, 2.5, c.height);  // the crease x = 0 is a line of nodes
   std::vector<double> stiffness(facets.size(), 1.0);
   if (c.jump) {
     for (std::size_t f = 0; f < facets.size(); ++f) stiffness[f] = f % 6 < 3 ? 1.0 : 4.0;
   }
-  const Path path = lap(
+  return lap(
       rules, gap, facets, stiffness, host, [&](double u) { return on_closed_path(c, gap, p, u); }, steps);
+}
+
+/// Net work over the largest stored energy of a lap.
+inline double net_of_lap(const ClosedPathCase& c, Rules rules, double gap, double p, int steps) {
+  const Path path = walk(c, rules, gap, p, steps);
   return path.largest > 0.0 ? path.net / path.largest : 0.0;
+}
+
+/// A lap over a random surface, at a random place and depth, half of them over a change of stiffness.
+struct RandomLap {
+  ClosedPathCase path;
+  Rules rules = Rules::standard();
+  double gap = 0.0, p = 0.0;
+};
+inline std::vector<RandomLap> random_laps(int count) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  std::vector<RandomLap> laps;
+  for (int lap = 0; lap < count; ++lap) {
+    const double bend = 0.03 + 0.12 * u(random), angle = 10.0 + 80.0 * u(random);
+    const std::vector<std::function<double(double, double)>> heights{
+        [bend](double x, double y) { return bend * (x * x - y * y); },
+        [bend](double x, double y) { return -bend * (x * x + y * y); },
+        [bend](double x, double y) { return bend * (x * x + y * y); },
+        [angle](double x, double) { return fold_height(x, angle, true); },
+        [angle](double x, double) { return fold_height(x, angle, false); },
+        [bend](double x, double y) { return bend * (std::sin(2 * x + 1.7 * y) + std::cos(2.3 * y - 1.1 * x)); }};
+    RandomLap one;
+    const bool jump = u(random) < 0.5;
+    one.gap = u(random) < 0.35 ? 0.0 : 0.2;
+    one.p = one.gap > 0.0 ? one.gap * (0.1 + 0.8 * u(random)) : 0.02 + 0.13 * u(random);
+    one.rules.law = one.gap > 0.0 && u(random) < 0.5 ? Law::stiffening : Law::constant;
+    one.path = {"",
+                heights[static_cast<std::size_t>(lap) % heights.size()],
+                jump,
+                4 * u(random) - 2,
+                4 * u(random) - 2,
+                0.6 + 0.8 * u(random),
+                0.6 + 0.8 * u(random)};
+    laps.push_back(std::move(one));
+  }
+  return laps;
 }
 
 /// The same for a rigid patch of 3 x 3 nodes, 0.5 wide, that faces the surface: two surfaces, two passes. Its lowest node follows the path.

@@ -149,44 +149,68 @@ TEST(ClosedPath, patch_gives_its_work_back) {
   std::printf("  worst %.2e\n", worst);
 }
 
-// Random surfaces, places, depths and changes of stiffness: where a lap of 20000 steps keeps more than 1e-3, one of 16 times as many steps
-// does not: a kink costs its force jump times the step, a jump of the energy would stay.
+// What a lap over folds keeps is what trapezoidal work misses of a force that jumps: at most |df . dx|/2 in the step over the fold, so it
+// falls with the step of the path. A jump of the stored energy would be beyond that bound and would stay.
+struct Laps {
+  double worst = 0.0, of_bound = 0.0;  ///< largest net work over CE, and over the bound
+};
+Laps walk_all(const std::vector<test::RandomLap>& laps, int steps) {
+  Laps all;
+  for (const test::RandomLap& lap : laps) {
+    const test::Path path = test::walk(lap.path, lap.rules, lap.gap, lap.p, steps);
+    if (path.largest <= 0.0) continue;
+    all.worst = std::max(all.worst, path.net / path.largest);
+    all.of_bound = std::max(all.of_bound, path.net / path.bound);
+  }
+  return all;
+}
+
+TEST(ClosedPath, what_folds_keep_falls_with_the_step) {
+  const std::vector<test::RandomLap> laps = test::random_laps(60);
+  const Laps coarse = walk_all(laps, 500), fine = walk_all(laps, 8000);
+  std::printf("  worst of 500 steps %.1e (%.2f of the bound), of 8000 %.1e (%.2f)\n", coarse.worst, coarse.of_bound, fine.worst,
+              fine.of_bound);
+  EXPECT_LE(coarse.of_bound, 1.0);
+  EXPECT_LE(fine.of_bound, 1.0);
+  EXPECT_LE(fine.worst, coarse.worst / 8.0);
+}
+
+// Where a lap of 20000 steps keeps more than 1e-3, one of 16 times as many steps does not.
 TEST(ClosedPathFull, random_laps_give_their_work_back) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> u(0.0, 1.0);
-  double worst = 0.0, finer = 0.0;
+  const std::vector<test::RandomLap> laps = test::random_laps(400);
+  double worst = 0.0, finer = 0.0, of_bound = 0.0;
   int repeated = 0;
-  for (int lap = 0; lap < 400; ++lap) {
-    const double bend = 0.03 + 0.12 * u(random), angle = 10.0 + 80.0 * u(random);
-    const std::vector<std::function<double(double, double)>> heights{
-        [bend](double x, double y) { return bend * (x * x - y * y); },
-        [bend](double x, double y) { return -bend * (x * x + y * y); },
-        [bend](double x, double y) { return bend * (x * x + y * y); },
-        [angle](double x, double) { return test::fold_height(x, angle, true); },
-        [angle](double x, double) { return test::fold_height(x, angle, false); },
-        [bend](double x, double y) { return bend * (std::sin(2 * x + 1.7 * y) + std::cos(2.3 * y - 1.1 * x)); }};
-    const bool jump = u(random) < 0.5;
-    const double gap = u(random) < 0.35 ? 0.0 : 0.2;
-    const double p = gap > 0.0 ? gap * (0.1 + 0.8 * u(random)) : 0.02 + 0.13 * u(random);
-    Rules rules = Rules::standard();
-    rules.law = gap > 0.0 && u(random) < 0.5 ? Law::stiffening : Law::constant;
-    const ClosedPathCase c{"",
-                           heights[static_cast<std::size_t>(lap) % heights.size()],
-                           jump,
-                           4 * u(random) - 2,
-                           4 * u(random) - 2,
-                           0.6 + 0.8 * u(random),
-                           0.6 + 0.8 * u(random)};
-    double net = test::net_of_lap(c, rules, gap, p, 20000);
-    worst = std::max(worst, net);
-    if (net > 1e-3) {
-      ++repeated;
-      net = test::net_of_lap(c, rules, gap, p, 320000);
+  for (std::size_t lap = 0; lap < laps.size(); ++lap) {
+    const test::RandomLap& one = laps[lap];
+    double net = 0.0;
+    for (const int steps : {20000, 320000}) {
+      const test::Path path = test::walk(one.path, one.rules, one.gap, one.p, steps);
+      if (path.largest <= 0.0) break;
+      EXPECT_LE(path.net, path.bound) << lap;
+      of_bound = std::max(of_bound, path.net / path.bound);
+      net = path.net / path.largest;
+      if (steps == 20000) worst = std::max(worst, net);
+      if (net <= 1e-3) break;
+      if (steps == 20000) ++repeated;
     }
     finer = std::max(finer, net);
     EXPECT_LE(net, 1e-3) << lap;
   }
-  std::printf("  worst of 20000 steps %.2e; %d laps repeated with 320000, worst then %.2e\n", worst, repeated, finer);
+  std::printf("  worst of 20000 steps %.2e; %d laps repeated with 320000, worst then %.2e; worst over the bound %.2f\n", worst, repeated,
+              finer, of_bound);
+}
+
+TEST(ClosedPathFull, what_folds_keep_falls_with_the_step) {
+  const std::vector<test::RandomLap> laps = test::random_laps(400);
+  double first = 0.0, last = 0.0;
+  for (const int steps : {1250, 5000, 20000, 80000}) {
+    const Laps all = walk_all(laps, steps);
+    std::printf("  %6d steps: worst of 400 laps %.2e of CE, %.2f of the bound\n", steps, all.worst, all.of_bound);
+    EXPECT_LE(all.of_bound, 1.0);
+    if (first == 0.0) first = all.worst;
+    last = all.worst;
+  }
+  EXPECT_LE(last, first / 16.0);  // 1/64, but for where in its step each lap meets its folds
 }
 
 }  // namespace

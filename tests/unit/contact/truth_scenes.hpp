@@ -34,7 +34,8 @@ class Oracle {
     const bool was_held = t.held;
     // Held: the nearest among facets that push in about the same direction. Free: the nearest of all.
     const double strip = border_strip + (was_held && t.from_front ? border_widening : 0.0);
-    Measure m = brute_force(surface, x, was_held ? HeldBy{t.facet, t.normal, strip} : HeldBy{});
+    HeldBy by = was_held ? HeldBy{t.facet, t.normal, strip} : HeldBy{};
+    Measure m = brute_force(surface, x, by);
     const bool was_ignored = t.ignored;
     const bool here = !m.closest.beyond;  // at the outer end of a strip there is none
     const bool in_front = here && m.distance >= 0.0;
@@ -77,6 +78,7 @@ class Oracle {
         const Measure caught = brute_force(surface, x, {hit, on.normal});
         if (!caught.closest.beyond && caught.distance < 0.0) {
           m = caught;
+          by = {hit, on.normal};
           p = gap_ - m.distance;
           meets = true;
           t.crossed = true;
@@ -90,7 +92,7 @@ class Oracle {
     // Beyond the end of the nearest strip another facet may still hold the node.
     const bool beside = !here && !lost && p > 0.0 && !t.ignored && t.offset == 0.0 && (was_held || -m.distance <= limit);
     t.touches = (meets && !faded(surface, m, m.distance, t.from_front)) ||
-                ((meets || beside) && stored_elsewhere(surface, x, m, p, strip, was_held, t.from_front));
+                ((meets || beside) && stored_elsewhere(surface, x, m, p, by, strip, was_held, t.from_front));
     t.held = t.touches;
     t.penetration = t.touches ? p : 0.0;
     if (t.touches && beside) {  // as the strips of a held node show it
@@ -108,9 +110,11 @@ class Oracle {
   std::vector<double> length_;
 
   /// Section 3: a facet that is further by D on the same side stores kappa phi(P - D (1 + P/delta)), delta a quarter of its length; strips
-  /// widen with the depth behind the nearest.
-  [[nodiscard]] bool stored_elsewhere(const Side& surface, const Vec3& x, const Measure& nearest, double p, double strip, bool was_held,
-                                      bool from_front) const {
+  /// widen with the depth behind the nearest. Of a held node only those count that its nearest was chosen from.
+  [[nodiscard]] bool stored_elsewhere(const Side& surface, const Vec3& x, const Measure& nearest, double p, const HeldBy& by, double strip,
+                                      bool was_held, bool from_front) const {
+    const bool in_front =
+        by.facet != no_index && signed_measure(surface, by.facet, closest_point(extended(surface, by.facet, strip), x), x).distance >= 0.0;
     double reach = was_held ? 1e300 : gap_;
     for (const double length : length_) reach = std::max(reach, depth_limit_ > 0.0 ? depth_limit_ : 0.5 * length);
     for (Index f = 0; f < surface.facet_count(); ++f) {
@@ -119,6 +123,7 @@ class Oracle {
       if (c.beyond || std::sqrt(c.squared_distance) > reach) continue;
       const Measure m = signed_measure(surface, f, c, x);
       if (m.distance * nearest.distance < 0.0 || dot(m.normal, nearest.normal) < -0.5) continue;
+      if (by.facet != no_index && !(dot(m.normal, by.normal) > -0.5 || (in_front && m.distance >= 0.0))) continue;
       const double further = std::max(0.0, std::abs(m.distance) - std::abs(nearest.distance));
       if (p - further * (1.0 + p / (0.25 * length_[at(f)])) > 0.0 && !faded(surface, m, nearest.distance, from_front)) return true;
     }
