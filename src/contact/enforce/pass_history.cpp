@@ -1,0 +1,51 @@
+// What a pass remembers, written and read back.
+#include "contact/enforce/pass.hpp"
+
+namespace abut::contact {
+
+void Pass::save(HistoryWriter& out) const {
+  const auto nodes = static_cast<Index>(states_.size());
+  std::size_t full = 0;
+  for (Index i = 0; i < nodes; ++i) full += remembered(states_.before(i)) == Remembered::all ? 1 : 0;
+  out.reserve(states_.size() + full * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) + tracked_.size() * sizeof(Tracked) + 64);
+  out.put(static_cast<std::uint64_t>(states_.size()));
+  for (Index i = 0; i < nodes; ++i) {
+    const NodeState& state = states_.before(i);
+    const Remembered r = remembered(state);
+    out.put(r);
+    if (r == Remembered::all) out.put(state);
+  }
+  out.put(static_cast<std::uint64_t>(started_ ? depth_.size() : 0));
+  for (const double d : depth_) out.put(d);
+  for (const double w : widening_) out.put(w);
+  out.put(size_);
+  out.put(settled_);
+  for (const Tracked& t : tracked_) out.put(t);
+}
+
+void Pass::load(HistoryReader& in) {
+  const auto nodes = static_cast<Index>(states_.size());
+  if (in.next<std::uint64_t>() != states_.size()) in.refuse("was made for another interface");
+  for (Index i = 0; i < nodes; ++i) {
+    const auto r = in.next<Remembered>();
+    if (r > Remembered::all) in.refuse("is damaged: it has a node that remembers what does not exist");
+    NodeState state = plain_state(r);
+    if (r == Remembered::all) in.get(state);
+    states_.set(i, state);
+  }
+  std::uint64_t facets = 0;
+  in.get(facets);
+  started_ = facets > 0;
+  depth_.resize(facets);
+  for (double& d : depth_) in.get(d);
+  widening_.resize(facets);
+  for (double& w : widening_) in.get(w);
+  limit_depths();
+  in.get(size_);
+  in.get(settled_);
+  tracked_.resize(started_ ? states_.size() : 0);
+  for (Tracked& t : tracked_) in.get(t);
+  stale_ = true;
+}
+
+}  // namespace abut::contact
