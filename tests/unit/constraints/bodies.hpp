@@ -1,6 +1,8 @@
 // A rigid body of six point masses, and what its tests measure.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -38,6 +40,20 @@ inline double uneven(int n) { return 1.0 + 0.5 * std::sin(2.7 * n); }
 inline Vec3 angular_momentum(const Rig& rig) {
   const auto main = static_cast<std::size_t>(rig.model.rigid_bodies[0].main);
   return rig.bodies.times_inertia(0, rig.s.w[main]);
+}
+
+/// An impulse on node 4 changes its velocity to `expected`: given at once, or as a contact force in cycle 0.
+inline void expect_response(Rig& rig, const RigidBodies::Carrier& carrier, const Vec3& impulse, const Vec3& expected, bool at_once) {
+  if (at_once) {
+    rig.s.times.h_bar = 0.5;
+    rig.s.times.h_plus = 1.0;
+    rig.bodies.push(rig.s, carrier, impulse);
+    EXPECT_LT(norm(rig.bodies.next_velocity(rig.s, carrier) - expected), 1e-5 * norm(expected));
+  } else {
+    rig.forces = [impulse](state::State& s) { s.f_contact[4] = 2.0 * impulse; };  // cycle 0 kicks by half a step
+    rig.step(1.0);
+    EXPECT_LT(norm(rig.s.v[4] - expected), 1e-5 * norm(expected));
+  }
 }
 
 }  // namespace abut::constraints::test
