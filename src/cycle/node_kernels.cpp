@@ -18,16 +18,6 @@ ABUT_DECLARE_NODE_KERNELS(avx2)
 ABUT_DECLARE_NODE_KERNELS(avx512)
 #undef ABUT_DECLARE_NODE_KERNELS
 
-const NodeKernels& node_kernels() {
-  switch (simd::active_isa()) {
-    case simd::Isa::avx512:
-      return avx512_kernels;
-    case simd::Isa::avx2:
-      return avx2_kernels;
-    case simd::Isa::sse2:
-      break;
-  }
-  return sse2_kernels;
-}
+const NodeKernels& node_kernels() { return *simd::of_active_isa(&sse2_kernels, &avx2_kernels, &avx512_kernels); }
 
 }  // namespace abut::cycle

@@ -12,4 +12,18 @@ enum class Isa { sse2, avx2, avx512 };
 [[nodiscard]] Isa active_isa();
 [[nodiscard]] std::string_view name(Isa isa);
 
+/// Of a kernel that is built once per set, the one of the active set.
+template <class Kernel>
+[[nodiscard]] Kernel of_active_isa(Kernel sse2, Kernel avx2, Kernel avx512) {
+  switch (active_isa()) {
+    case Isa::avx512:
+      return avx512;
+    case Isa::avx2:
+      return avx2;
+    case Isa::sse2:
+      break;
+  }
+  return sse2;
+}
+
 }  // namespace abut::simd

@@ -15,16 +15,6 @@ namespace avx512 {
 void held_nodes(const HeldRules& rules, HeldBatch& batch);
 }
 
-HeldKernel held_kernel() {
-  switch (simd::active_isa()) {
-    case simd::Isa::avx512:
-      return avx512::held_nodes;
-    case simd::Isa::avx2:
-      return avx2::held_nodes;
-    case simd::Isa::sse2:
-      break;
-  }
-  return sse2::held_nodes;
-}
+HeldKernel held_kernel() { return simd::of_active_isa(sse2::held_nodes, avx2::held_nodes, avx512::held_nodes); }
 
 }  // namespace abut::contact

@@ -161,8 +161,9 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
     reaction.normal[c] = get(batch.on_corner[c]);
   }
   const Vec3 on_node = get(batch.on_node);
-  loads.load(i).own_normal = on_node;
-  loads.load(i).own_stiffness += batch.step_stiffness[k];
+  SideLoads::Node& load = loads.load(i);
+  load.own_normal = on_node;
+  load.own_stiffness += batch.step_stiffness[k];
   totals.normal += on_node;
 
   if (options_.rubs()) {
@@ -171,7 +172,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
     slips_[at(i)] = batch.slips[k] != 0.0 ? 1 : 0;
     const Vec3 on_surface = get(batch.on_surface);
     reaction.tangential = on_surface;
-    loads.load(i).own_tangential = -on_surface;
+    load.own_tangential = -on_surface;
     totals.tangential -= on_surface;
     after.friction = on_surface;
     after.anchored = 1;

@@ -15,16 +15,6 @@ namespace avx512 {
 MotionPart motions(const MotionArgs& args, std::size_t begin, std::size_t end);
 }
 
-MotionKernel motion_kernel() {
-  switch (simd::active_isa()) {
-    case simd::Isa::avx512:
-      return avx512::motions;
-    case simd::Isa::avx2:
-      return avx2::motions;
-    case simd::Isa::sse2:
-      break;
-  }
-  return sse2::motions;
-}
+MotionKernel motion_kernel() { return simd::of_active_isa(sse2::motions, avx2::motions, avx512::motions); }
 
 }  // namespace abut::contact

@@ -27,15 +27,8 @@ namespace {
 using Kernel = void (*)(const ShellKernelArgs&, const C0Parameters&, double, std::size_t, std::size_t);
 
 Kernel choose_kernel(bool plastic) {
-  switch (simd::active_isa()) {
-    case simd::Isa::avx512:
-      return plastic ? avx512::c0_johnson_cook : avx512::c0_elastic;
-    case simd::Isa::avx2:
-      return plastic ? avx2::c0_johnson_cook : avx2::c0_elastic;
-    case simd::Isa::sse2:
-      break;
-  }
-  return plastic ? sse2::c0_johnson_cook : sse2::c0_elastic;
+  return plastic ? simd::of_active_isa(sse2::c0_johnson_cook, avx2::c0_johnson_cook, avx512::c0_johnson_cook)
+                 : simd::of_active_isa(sse2::c0_elastic, avx2::c0_elastic, avx512::c0_elastic);
 }
 
 class ShellC0Group final : public ShellGroup {

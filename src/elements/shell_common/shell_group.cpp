@@ -25,15 +25,8 @@ ABUT_DECLARE_FINISH(avx512)
 namespace {
 
 auto choose_finish_block(bool quad) {
-  switch (simd::active_isa()) {
-    case simd::Isa::avx512:
-      return quad ? avx512::finish_quad_block : avx512::finish_triangle_block;
-    case simd::Isa::avx2:
-      return quad ? avx2::finish_quad_block : avx2::finish_triangle_block;
-    case simd::Isa::sse2:
-      break;
-  }
-  return quad ? sse2::finish_quad_block : sse2::finish_triangle_block;
+  return quad ? simd::of_active_isa(sse2::finish_quad_block, avx2::finish_quad_block, avx512::finish_quad_block)
+              : simd::of_active_isa(sse2::finish_triangle_block, avx2::finish_triangle_block, avx512::finish_triangle_block);
 }
 
 /// Stress of a shell's frame (xx yy xy yz zx, no zz) in global axes: xx yy zz xy yz zx.

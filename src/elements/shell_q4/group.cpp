@@ -26,15 +26,8 @@ namespace {
 using Kernel = void (*)(const ShellKernelArgs&, const Q4Parameters&, double, std::size_t, std::size_t);
 
 Kernel choose_kernel(bool plastic) {
-  switch (simd::active_isa()) {
-    case simd::Isa::avx512:
-      return plastic ? avx512::q4_johnson_cook : avx512::q4_elastic;
-    case simd::Isa::avx2:
-      return plastic ? avx2::q4_johnson_cook : avx2::q4_elastic;
-    case simd::Isa::sse2:
-      break;
-  }
-  return plastic ? sse2::q4_johnson_cook : sse2::q4_elastic;
+  return plastic ? simd::of_active_isa(sse2::q4_johnson_cook, avx2::q4_johnson_cook, avx512::q4_johnson_cook)
+                 : simd::of_active_isa(sse2::q4_elastic, avx2::q4_elastic, avx512::q4_elastic);
 }
 
 Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p, ShellSection& s) {

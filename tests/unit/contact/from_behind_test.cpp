@@ -82,8 +82,7 @@ TEST(FromBehind, flank_of_a_strip_is_foreseen) {
 
 // Two plates of free points that face the wrong way, overlap or overhang each other and tear: nodes meet strips of torn facets from the
 // side, deeper than they came, and facets turn under nodes by half a turn in a step. Pairs that hold more than they were given give no more
-// than that. (Without, up to
-// 50 times all the energy there was.)
+// than that. (Without, up to 50 times all the energy there was.)
 struct Overlap {
   bool flip_lower = false, flip_upper = false, lower_fixed = false;
   double shift = 0.0, height = 0.0, speed = 0.0, gap = 0.0;
