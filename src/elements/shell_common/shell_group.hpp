@@ -8,6 +8,7 @@
 #include "elements/group.hpp"
 #include "elements/shell_common/kernel_args.hpp"
 #include "elements/shell_common/section.hpp"
+#include "simd/aligned.hpp"
 
 namespace abut::elements {
 
@@ -82,11 +83,11 @@ class ShellGroup : public Group {
   Family family_;
   model::ElementKind kind_;
   std::size_t per_element_;
-  std::vector<double> state_;
-  std::vector<double> constants_;
+  simd::AlignedVector<double> state_;
+  simd::AlignedVector<double> constants_;
   std::vector<double> initial_area_;
-  std::vector<std::int32_t> nodes_;
-  std::vector<double> steps_;
+  simd::AlignedVector<std::int32_t> nodes_;
+  simd::AlignedVector<double> steps_;
   std::vector<ChunkResult> results_;
   FinishBlock finish_block_ = nullptr;
   mutable NodalShares shares_;

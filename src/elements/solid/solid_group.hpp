@@ -8,6 +8,7 @@
 #include "elements/group.hpp"
 #include "elements/solid/solid_kernels.hpp"
 #include "elements/solid/solid_layout.hpp"
+#include "simd/aligned.hpp"
 
 namespace abut::elements {
 
@@ -56,8 +57,8 @@ class SolidGroup : public Group {
 
  private:
   SolidKernel kernel_ = nullptr;
-  std::vector<std::int32_t> block_offsets_;
-  std::vector<double> state_;
+  simd::AlignedVector<std::int32_t> block_offsets_;
+  simd::AlignedVector<double> state_;
   std::vector<SolidChunk> results_;
   mutable NodalShares shares_;
 };
