@@ -230,6 +230,7 @@ ABUT_INLINE void c0_blocks(const ShellKernelArgs& args, const C0Parameters& q, d
   const auto stride = static_cast<std::size_t>(args.section->variables * shell_lanes);
   for (std::size_t b = begin; b < end; ++b) {
     simd::prefetch(args.state + (b + 1) * stride, stride);
+    ask(args.ahead, b - begin, end - begin, {args.x, args.v, args.w});
     for (int lane = 0; lane < shell_lanes; lane += simd::NumberTraits<T>::width) c0_lanes<T, law>(args, q, damping, b, lane);
     finish_block<T, 3>(args, b);
   }

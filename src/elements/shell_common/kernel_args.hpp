@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "elements/nodes_ahead.hpp"
 #include "elements/shell_common/section.hpp"
 #include "simd/gather.hpp"
 #include "simd/pack.hpp"
@@ -44,6 +45,7 @@ struct ShellKernelArgs {
   double* steps = nullptr;                   ///< #B by 8: element step, 1e30 for elements that are off
   const std::uint16_t* positions = nullptr;  ///< of block 0 (chunks.hpp)
   double* sums = nullptr;                    ///< of the chunk that the blocks belong to; null: slots only
+  NodesAhead ahead;                          ///< of the next chunk
   ShellBook* book = nullptr;                 ///< of that chunk; null: none
 };
 

@@ -179,6 +179,7 @@ void ShellGroup::run_chunk(ShellKernelArgs args, const StepOutput& out, std::siz
   if (!acts_on_small_steps()) {
     args.sums = sums;
     args.book = &book;
+    args.ahead = chunks_.ahead_of(chunk);
     run(args, first, end);
   } else {
     ShellKernelArgs whole = args;

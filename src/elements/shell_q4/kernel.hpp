@@ -238,6 +238,7 @@ ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, d
     const std::int32_t* nodes = args.nodes + b * (4 * shell_lanes);
     double* state = args.state + b * stride;
     simd::prefetch(state + stride, stride);
+    ask(args.ahead, b - begin, end - begin, {args.x, args.v, args.w});
     for (int p = 0; p < shell_lanes / width; ++p) q4_geometry(args, q, state + p * width, nodes + p * width, motion[p].g);
     for (int p = 0; p < shell_lanes / width; ++p) q4_motion(args, nodes + p * width, motion[p]);
     for (int p = 0; p < shell_lanes / width; ++p) q4_lanes<T, law>(args, q, damping, b, p * width, motion[p]);

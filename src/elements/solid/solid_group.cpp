@@ -215,6 +215,7 @@ GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, paralle
       task.first = static_cast<std::int32_t>(chunks_.first_block(i));
       task.last = static_cast<std::int32_t>(chunks_.end_block(i));
       task.chunk = &results_[i];
+      task.ahead = chunks_.ahead_of(i);
       if (out.sums != nullptr) {
         task.sums = out.sums + chunks_.sum_offset(i);
         std::fill_n(task.sums, chunks_.nodes(i).size() * 4, 0.0);
