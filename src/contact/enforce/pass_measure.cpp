@@ -45,10 +45,10 @@ bool Pass::far(const HostState& host, const Side& held, const Side& surface, con
       if (border) {
         due = std::min(due, by_plane);
       } else {
-        entry.due = std::max(entry.due, by_plane);
+        entry.due = std::max<double>(entry.due, by_plane);
       }
     }
-    due = std::min(due, entry.due);
+    due = std::min<double>(due, entry.due);
   }
   candidates_.set_nearest_due(i, due);
   return true;
