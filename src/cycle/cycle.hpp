@@ -95,8 +95,8 @@ class Cycle {
   std::vector<std::unique_ptr<elements::Group>> groups_;
   elements::Assembly assembly_;
   state::State state_;
-  simd::AlignedVector<double> sums_;   // of chunks of elements
-  std::vector<double> slots_;  // of elements, when a section asks for them
+  simd::AlignedVector<double> sums_;  // of chunks of elements
+  std::vector<double> slots_;         // of elements, when a section asks for them
 
   constraints::Curves curves_;
   constraints::Axes axes_;

@@ -14,7 +14,8 @@
 
 namespace abut::state {
 
-/// Allocates zeroed memory that begins on a line of the caches, of which the system gives pages at the first write only; a default-constructed T must be all zeros.
+/// Allocates zeroed memory that begins on a line of the caches, of which the system gives pages at the first write only; a
+/// default-constructed T must be all zeros.
 template <class T>
 struct ZeroAllocator {
   using value_type = T;
