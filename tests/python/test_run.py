@@ -291,11 +291,15 @@ sys.path.insert(0, {folder!r})
 import abut
 from support import two_blocks
 run = abut.Run(two_blocks(end=1e3).build(), output={output!r}, threads=1)
+run.advance()
 calls = 0
 def callback(r):
     global calls
     calls += 1
-print("going", flush=True)
+    if calls == 1:
+        print("going", flush=True)
+if not {with_callback}:
+    print("going", flush=True)
 try:
     run.advance_to_end(callback if {with_callback} else None)
 except KeyboardInterrupt:
