@@ -21,8 +21,9 @@ class Candidates {
  public:
   struct Entry {
     Index facet;
-    bool wide;   ///< `due` counts strips as wide as a held node's can be
-    double due;  ///< distance when last measured, before that a lower bound, + the clock then: the distance now is at least due - clock()
+    bool wide;    ///< `due` counts strips as wide as a held node's can be
+    bool border;  ///< the facet had free borders when the list was made
+    double due;   ///< distance when last measured, before that a lower bound, + the clock then: the distance now is at least due - clock()
   };
 
   /// Rebuilds the lists when any node-to-facet distance may have changed by more than `skin` since the last build (or `force` is set).
