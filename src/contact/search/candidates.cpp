@@ -130,7 +130,7 @@ void Candidates::list(const Side& held, const Side& surface, Index node, double 
     double away = std::sqrt(squared_distance(tree_.box(f), x));
     if (!border) away = std::max(away, over);
     if (away > limit) return;
-    entries.emplace_back(f, true, away);  // the clock shows 0
+    entries.emplace_back(f, true, border, away);  // the clock shows 0
     nearest_[at(node)] = std::min(nearest_due(node), border ? std::min(away, over) : away);
   });
   std::sort(entries.begin() + begin, entries.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });

@@ -50,13 +50,14 @@ class Positions {
 class Candidates {
  public:
   struct Entry {
-    Index facet : 31;
-    bool wide : 1;  ///< `due` counts strips as wide as a held node's can be
+    Index facet : 30;
+    bool wide : 1;    ///< `due` counts strips as wide as a held node's can be
+    bool border : 1;  ///< the facet had free borders when the list was made
     Due due;  ///< distance when last measured, before that a lower bound, + the clock then: the distance now is at least due - clock()
 
-    Entry() : Entry(0, false, 0.0) {}
-    /// @pre 0 <= f < 2^30
-    Entry(Index f, bool w, double d) : facet(f & 0x3fffffff), wide(w), due(d) {}
+    Entry() : Entry(0, false, false, 0.0) {}
+    /// @pre 0 <= f < 2^29
+    Entry(Index f, bool w, bool b, double d) : facet(f & 0x1fffffff), wide(w), border(b), due(d) {}
   };
   static_assert(sizeof(Entry) == 8);
 
@@ -93,7 +94,7 @@ class Candidates {
     const Entry& kept = others_[at(node)];
     return {kept.facet - 1, kept.wide, kept.due};
   }
-  void set_others(Index node, const Others& others) { others_[at(node)] = {others.facet + 1, others.wide, others.due}; }
+  void set_others(Index node, const Others& others) { others_[at(node)] = {others.facet + 1, others.wide, false, others.due}; }
   /// Upper bound of the change of any node-to-facet distance since the lists were made.
   [[nodiscard]] double slack() const { return slack_; }
   /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box.

@@ -83,6 +83,12 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
     if ((known(entry) && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
         !surface.active(entry.facet))
       continue;
+    const double bound = distance_at_least(extended(surface, entry.facet, held.strip), x);
+    if (bound > rounding * best_distance) {
+      entry.due = bound + clock;
+      entry.wide = wide;
+      continue;
+    }
     try_entry(entry);
   }
   candidates.set_nearest_due(node, least + clock);
@@ -97,6 +103,28 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   if (!listed) others.facet = no_index;
   candidates.set_others(node, others);
   return facet == no_index ? best : signed_measure(surface, facet, closest, x);
+}
+
+bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance) {
+  const double clock = candidates.clock();
+  const bool wide = held.strip > border_strip;
+  Candidates::Others others{held.facet, true, 1e300};
+  bool listed = false;
+  for (Candidates::Entry& entry : candidates.of(node)) {
+    if (entry.facet == held.facet) listed = true;
+    if (entry.facet == held.facet || !surface.active(entry.facet)) continue;
+    const bool borders = surface.borders(entry.facet) != 0;
+    if ((wide && borders && !entry.wide) || !(entry.due - clock > distance)) {
+      const double bound = distance_at_least(extended(surface, entry.facet, held.strip), x);
+      if (!(bound > distance)) return false;
+      entry.due = bound + clock;
+      entry.wide = wide;
+    }
+    others.due = std::min<double>(others.due, entry.due);
+    others.wide = others.wide && (entry.wide || !borders);
+  }
+  if (listed) candidates.set_others(node, others);
+  return listed;
 }
 
 }  // namespace abut::contact
