@@ -37,7 +37,7 @@ bool Pass::far(const HostState& host, const Side& held, const Side& surface, con
   for (Candidates::Entry& entry : candidates_.of(i)) {
     const double by_plane = height_over(surface.patch(entry.facet), x) + candidates_.clock();
     if (!entry.border) entry.due = std::max<double>(entry.due, by_plane);
-    const double nearest = std::min<double>(entry.due, entry.border ? by_plane : entry.due);
+    const double nearest = entry.border ? std::min<double>(entry.due, by_plane) : static_cast<double>(entry.due);
     if (!clears(motion, nearest)) return false;
     due = std::min(due, nearest);
   }
