@@ -62,7 +62,7 @@ TEST(SinglePrecision, NothingIsDueLaterThanItWas) {
     const double given = numbers.next();
     if (given < -2e38) continue;
     EXPECT_LE(Due(given), given);
-    if (std::abs(given) < 2e38) EXPECT_GE(Due(given), given - 4e-7 * std::abs(given) - 1e-37);
+    if (std::abs(given) < 2e38) { EXPECT_GE(Due(given), given - 4e-7 * std::abs(given) - 1e-37); }
   }
   EXPECT_GT(Due(1e300), 1e38);
   EXPECT_LT(Due(-1e300), -1e38);
