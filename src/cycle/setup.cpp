@@ -81,7 +81,10 @@ void Cycle::switch_off_rigid_elements() {
   bodies_revision_ = bodies_.revision();
   for (const std::unique_ptr<elements::Group>& g : groups_) {
     std::vector<std::uint8_t> rigid(static_cast<std::size_t>(g->size()), 0);
-    for (Index e = 0; e < g->size(); ++e) rigid[static_cast<std::size_t>(e)] = bodies_.contains(g->nodes(e)) ? 1 : 0;
+    for (Index e = 0; e < g->size(); ++e) {
+      const elements::ElementNodes nodes = g->nodes(e);
+      rigid[static_cast<std::size_t>(e)] = bodies_.contains(nodes) ? 1 : 0;
+    }
     g->set_rigid(rigid);
   }
 }

@@ -120,7 +120,7 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
 }
 
 bool Pass::alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {
-  const Candidates::Others& others = candidates_.others(i);
+  const Candidates::Others others = candidates_.others(i);
   const NodeState& before = states_.before(i);
   // Beyond what counts as equally near or can store more, with room for the rounding of the clock.
   const double further = scene.surface.evenly_stiff()

@@ -32,7 +32,7 @@ Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest
 
 Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
   constexpr double rounding = 1.0 + 1e-12;  // of the clock's sums
-  const Candidates::Others& last = candidates.others(node);
+  const Candidates::Others last = candidates.others(node);
   if (last.facet != no_index && (held.facet == no_index || held.facet == last.facet) && surface.active(last.facet) &&
       (last.wide || held.strip <= border_strip)) {
     // The facet that was the nearest, as long as no other can be: what the search below would say, without looking at the list.
@@ -97,7 +97,7 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   for (const Candidates::Entry& entry : entries) {
     listed = listed || entry.facet == others.facet;
     if (entry.facet == others.facet || !surface.active(entry.facet)) continue;
-    others.due = std::min(others.due, known(entry) ? entry.due : -1e300);
+    others.due = std::min(others.due, known(entry) ? static_cast<double>(entry.due) : -1e300);
     others.wide = others.wide && (entry.wide || surface.borders(entry.facet) == 0);
   }
   if (!listed) others.facet = no_index;
@@ -120,7 +120,7 @@ bool none_within(const Side& surface, Candidates& candidates, Index node, const 
       entry.due = bound + clock;
       entry.wide = wide;
     }
-    others.due = std::min(others.due, entry.due);
+    others.due = std::min<double>(others.due, entry.due);
     others.wide = others.wide && (entry.wide || !borders);
   }
   if (listed) candidates.set_others(node, others);
