@@ -1,9 +1,7 @@
 #include "constraints/boundary_conditions.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 
 #include "constraints/rigid_bodies.hpp"
 
@@ -21,11 +19,10 @@ std::vector<Index> conditioned_nodes(const model::Model& model) {
 
 void remove(Vec3& v, const Vec3& axis) { v -= dot(v, axis) * axis; }
 
-/// The same for global axes. What is zero is left alone: arrays that nothing writes take no memory (state/zero_array.hpp).
-/// @param bits bit k: direction k
+/// The same for global axes. @param bits bit k: direction k
 void remove(Vec3& v, unsigned bits) {
   for (int k = 0; k < 3; ++k) {
-    if ((bits >> static_cast<unsigned>(k) & 1U) != 0U && std::bit_cast<std::uint64_t>(v[k]) != 0) v[k] = 0.0;
+    if ((bits >> static_cast<unsigned>(k) & 1U) != 0U) v[k] = 0.0;
   }
 }
 

@@ -47,6 +47,9 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   if (!options.profile.reference_contact) contact_mobility_ = ContactMobility(model, interfaces_, boundary_);
   // The reference program keeps the stiffness of the start.
   if (!options.profile.reference_contact) contact_thickness_ = ContactThickness(model, groups_, interfaces_);
+  for (init::RunInterface& i : interfaces_) {
+    for (init::RunInterface::Side& side : i.sides) std::vector<model::ElementRef>().swap(side.shell);  // nobody else asks for them
+  }
   if (options.interfaces) contact_facing_ = ContactFacing(model);
 
   std::vector<std::uint8_t> free_translation(n, 1);
