@@ -47,7 +47,7 @@ class Forces {
     for (const auto& g : groups_) {
       std::vector<std::uint8_t> rigid;
       for (Index e = 0; e < g->size(); ++e) {
-        const elements::ElementNodes nodes = g->nodes(e);
+        const auto nodes = g->nodes(e);
         rigid.push_back(bodies.contains(nodes) ? 1 : 0);
       }
       g->set_rigid(rigid);
