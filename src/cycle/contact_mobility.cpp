@@ -59,10 +59,8 @@ ContactMobility::ContactMobility(const model::Model& model, std::span<const init
   for (Index node = 0; node < model.node_count(); ++node) {
     if (touches[at(node)] != 0 && (of_body[at(node)] != 0 || bound_[at(node)] >= 0)) nodes_.push_back(node);
   }
-  if (nodes_.empty() && steady_nodes_.empty()) {
-    bound_ = std::vector<std::int32_t>();
-    return;
-  }
+  if (nodes_.empty()) bound_ = std::vector<std::int32_t>();
+  if (nodes_.empty() && steady_nodes_.empty()) return;
   entry_.assign(n, no_index);
   mobility_.resize(nodes_.size() + steady_nodes_.size());
   steady_mass_.assign(steady_nodes_.size(), std::numeric_limits<double>::quiet_NaN());

@@ -36,8 +36,9 @@ bool Pass::far(const HostState& host, const Side& held, const Side& surface, con
   double due = 1e300;
   for (Candidates::Entry& entry : candidates_.of(i)) {
     const double by_plane = height_over(surface.patch(entry.facet), x) + candidates_.clock();
-    if (!entry.border) entry.due = std::max<double>(entry.due, by_plane);
-    const double nearest = entry.border ? std::min<double>(entry.due, by_plane) : static_cast<double>(entry.due);
+    const double known = entry.due;
+    const double nearest = entry.border ? std::min(known, by_plane) : std::max(known, by_plane);
+    if (!entry.border) entry.due = nearest;
     if (!clears(motion, nearest)) return false;
     due = std::min(due, nearest);
   }
