@@ -49,29 +49,33 @@ ContactThickness::ContactThickness(const model::Model& model, std::span<const st
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     const model::Interface& card = model.interfaces[static_cast<std::size_t>(interfaces[i].model_index)];
     const auto* t7 = std::get_if<model::InterfaceType7>(&card.type);
-    if (t7 != nullptr && t7->istf == 1) continue;  // the card gives the stiffness
+    const bool given = t7 != nullptr && t7->istf == 1;  // the card gives the stiffness
+    const double scale = t7 != nullptr && t7->igap >= 2 ? t7->gap_scale : 1.0;
     for (std::size_t k = 0; k < interfaces[i].sides.size(); ++k) {
       const init::RunInterface::Side& side = interfaces[i].sides[k];
-      Followed f{i, k, {}, side.stiffness};
+      if (given && side.thickness.empty()) continue;
+      Followed f{i, k, {}, side.stiffness, {}};
+      f.thickness.assign(side.thickness.size(), 0.0);
       const auto follow = [&](std::size_t target, const model::ElementRef& e, double stiffness) {
-        if ((e.kind != model::ElementKind::shell4 && e.kind != model::ElementKind::shell3) || !changes(model, e)) return;
+        if (e.kind != model::ElementKind::shell4 && e.kind != model::ElementKind::shell3) return false;
+        const double gap = side.thickness.empty() ? 0.0 : scale * init::gap_thickness(model, e);
         const Place place = places[e.kind == model::ElementKind::shell4 ? 0 : 1][static_cast<std::size_t>(e.index)];
-        if (place.element == no_index) return;
-        const double initial = groups[place.group]->thickness(place.element);
-        if (initial <= 0.0) return;
-        const double gap = side.thickness.empty() ? 0.0 : init::gap_thickness(model, e);
-        f.parts.push_back({target, place.group, place.element, initial, stiffness, gap, 1.0});
+        const double initial = place.element != no_index && changes(model, e) ? groups[place.group]->thickness(place.element) : 0.0;
+        if (initial > 0.0) {
+          f.parts.push_back({target, place.group, place.element, initial, stiffness, gap, 1.0});
+        } else if (!f.thickness.empty()) {
+          f.thickness[target] = std::max(f.thickness[target], gap);
+        }
+        return initial > 0.0;
       };
-      for (std::size_t s = 0; s < side.shell.size(); ++s) follow(s, side.shell[s], side.stiffness[s]);
+      for (std::size_t s = 0; s < side.shell.size(); ++s) {
+        if (follow(s, side.shell[s], given ? 0.0 : side.stiffness[s]) && !given) f.stiffness[s] = 0.0;
+      }
       if (!side.shares.empty()) {
         f.stiffness.assign(side.nodes.size(), 0.0);
         for (const init::NodeShare& s : side.shares) {
-          const std::size_t before = f.parts.size();
-          follow(s.node, s.element, s.stiffness);
-          if (f.parts.size() == before) f.stiffness[s.node] += s.stiffness;
+          if (!follow(s.node, s.element, s.stiffness)) f.stiffness[s.node] += s.stiffness;
         }
-      } else {
-        for (const Part& p : f.parts) f.stiffness[p.target] = 0.0;
       }
       if (!f.parts.empty()) followed_.push_back(std::move(f));
     }
@@ -81,9 +85,7 @@ ContactThickness::ContactThickness(const model::Model& model, std::span<const st
 void ContactThickness::apply(const Followed& f, init::RunInterface& interface) const {
   init::RunInterface::Side& side = interface.sides[f.side];
   side.stiffness = f.stiffness;
-  if (!side.thickness.empty()) {
-    for (const Part& p : f.parts) side.thickness[p.target] = 0.0;
-  }
+  side.thickness = f.thickness;
   for (const Part& p : f.parts) {
     side.stiffness[p.target] += p.stiffness * p.ratio;
     if (!side.thickness.empty()) side.thickness[p.target] = std::max(side.thickness[p.target], p.thickness * p.ratio);

@@ -1,4 +1,5 @@
-// Contact stiffness E t, and the thickness of automatic gaps, of shells that become thinner or thicker (Ithick 1).
+// Contact stiffness E t, and the thickness of automatic (TYPE3, TYPE5) and variable (TYPE7) gaps, of shells that become thinner or thicker
+// (Ithick 1).
 #pragma once
 
 #include <span>
@@ -10,9 +11,9 @@
 
 namespace abut::cycle {
 
-/// Both follow t/t0: K = K0 t/t0 of a facet's shell, of a held node (TYPE5) the sum of its shells' shares. Looked at every
-/// `cycles_between` cycles; an interface takes new values when a thickness has changed by `noticed` of itself since it took the last.
-/// What an elastic contact stores changes with its stiffness: that is in CX.
+/// Both follow t/t0: K = K0 t/t0 of a facet's shell, of a held node (TYPE5; TYPE7 with Istf 2 to 5) the sum of its shells' shares; gaps of
+/// a held node the largest of its shells. Looked at every `cycles_between` cycles; an interface takes new values when a thickness has
+/// changed by `noticed` of itself since it took the last. What an elastic contact stores changes with its stiffness: that is in CX.
 class ContactThickness {
  public:
   static constexpr std::int64_t cycles_between = 100;
@@ -41,7 +42,7 @@ class ContactThickness {
   struct Followed {
     std::size_t interface = 0, side = 0;
     std::vector<Part> parts;
-    std::vector<double> stiffness;  ///< of each target what does not change
+    std::vector<double> stiffness, thickness;  ///< of each target what does not change
   };
   std::vector<Followed> followed_;
 

@@ -105,14 +105,31 @@ std::vector<double> nodal_thickness(const model::Model& model) {
 }
 
 namespace {
+double thickness_scale(const model::InterfaceType7& t7) { return t7.igap >= 2 ? t7.gap_scale : 1.0; }
+}  // namespace
+
+std::vector<double> gap_thickness_of_nodes(const model::Model& model, const model::InterfaceType7& t7) {
+  const std::vector<double> thickness = nodal_thickness(model);
+  std::vector<double> out;
+  for (const Index n : t7.nodes) out.push_back(thickness_scale(t7) * thickness[static_cast<std::size_t>(n)]);
+  return out;
+}
+
+std::vector<double> gap_thickness_of_facets(const model::Model& model, const model::InterfaceType7& t7) {
+  std::vector<double> out;
+  for (const model::Segment& s : model.surfaces[static_cast<std::size_t>(t7.surface)].segments) {
+    out.push_back(thickness_scale(t7) * gap_thickness(model, s.element));
+  }
+  return out;
+}
+
+namespace {
 
 void variable_gap(const model::Model& model, const model::InterfaceType7& t7, const model::Surface& surface, const ShortestSides& sides,
                   contact::BothSidesOptions& o) {
   constexpr double unlimited = 1e30;
-  const double scale = t7.igap >= 2 ? t7.gap_scale : 1.0;
-  const std::vector<double> thickness = nodal_thickness(model);
-  for (const Index n : t7.nodes) o.node_gap.push_back(0.5 * scale * thickness[static_cast<std::size_t>(n)]);
-  for (const model::Segment& s : surface.segments) o.facet_gap.push_back(0.5 * scale * gap_thickness(model, s.element));
+  for (const double t : gap_thickness_of_nodes(model, t7)) o.node_gap.push_back(0.5 * t);
+  for (const double t : gap_thickness_of_facets(model, t7)) o.facet_gap.push_back(0.5 * t);
   if (t7.igap >= 2) o.gap_max = t7.gap_max;
   if (t7.igap < 3) return;
   std::vector<double> around(static_cast<std::size_t>(model.node_count()), unlimited);

@@ -23,6 +23,10 @@ using InterfaceChoices = std::vector<InterfaceChoice>;
 /// Largest such thickness of the shells around each node, #N; 0 without.
 [[nodiscard]] std::vector<double> nodal_thickness(const model::Model& model);
 
+/// What variable gaps of TYPE7 take for thickness: with Igap 2 and 3 times Fscale. #nodes, #F.
+[[nodiscard]] std::vector<double> gap_thickness_of_nodes(const model::Model& model, const model::InterfaceType7& t7);
+[[nodiscard]] std::vector<double> gap_thickness_of_facets(const model::Model& model, const model::InterfaceType7& t7);
+
 /// Half of the largest thicknesses of both sides of an interface of TYPE3 or TYPE5.
 [[nodiscard]] double largest_automatic_gap(const model::Model& model, const model::Interface& card);
 

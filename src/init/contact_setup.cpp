@@ -96,6 +96,15 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
   for (double& k : r.sides[1].stiffness) k = t7.istf == 1 ? 2.0 * card.stfac : card.stfac * k;
   r.contact.set_surface(1, {r.sides[1].stiffness, {}, r.sides[1].active, {}});
   if (t7.istf >= 2) r.contact.set_surface(0, {secondary_stiffness(model, t7.nodes, x), {}, {}, {}});
+  // What follows shells that become thinner.
+  if (t7.istf >= 2 || t7.igap > 0) {
+    r.sides[0].shares = secondary_shares(model, t7.nodes, x);
+    for (NodeShare& s : r.sides[0].shares) s.stiffness = t7.istf >= 2 ? s.stiffness : 0.0;
+  }
+  if (t7.igap > 0) {
+    r.sides[0].thickness = gap_thickness_of_nodes(model, t7);
+    r.sides[1].thickness = gap_thickness_of_facets(model, t7);
+  }
   return r;
 }
 

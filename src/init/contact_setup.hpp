@@ -24,10 +24,10 @@ struct RunInterface {
   contact::Interface contact;
   /// Per side (0 first, 1 second) and facet: own stiffness, activity, and the elements that contain the facet (Idel).
   struct Side {
-    std::vector<double> stiffness;         ///< of held nodes without a surface: of TYPE5 only
-    std::vector<double> thickness;         ///< of facets or held nodes; empty without an automatic gap
+    std::vector<double> stiffness;         ///< of held nodes without a surface: of TYPE5, of TYPE7 once shells have become thinner
+    std::vector<double> thickness;         ///< of facets or held nodes; empty without a gap from thickness
     std::vector<model::ElementRef> shell;  ///< behind each facet; none of a solid
-    std::vector<NodeShare> shares;         ///< of TYPE5's held nodes
+    std::vector<NodeShare> shares;         ///< of the held nodes of TYPE5 and TYPE7
     std::vector<std::uint8_t> active;
     std::vector<Index> nodes;  ///< surface nodes (contact::Surface::nodes()) or held nodes
     std::vector<std::uint8_t> node_active;

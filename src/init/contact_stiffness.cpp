@@ -77,31 +77,40 @@ double segment_stiffness(const model::Model& model, const model::Segment& segmen
   return bulk * area * area / solid_volume(model, e, x);
 }
 
+namespace {
+
+const model::Material* material_of(const model::Model& model, const ElementRef& e) {
+  const Index m = model.parts[static_cast<std::size_t>(part_of(model, e))].material;
+  return m == no_index ? nullptr : &model.materials[static_cast<std::size_t>(m)];
+}
+
+/// Calls use(node, shell, E t) for each node of each shell, a triangle's third once.
+template <class Use>
+void each_shell_at_a_node(const model::Model& model, const Use& use) {
+  const auto each = [&](const auto& elements, ElementKind kind) {
+    for (Index e = 0; e < elements.size(); ++e) {
+      const ElementRef ref{kind, e};
+      const model::Material* material = material_of(model, ref);
+      const Index property = model.parts[static_cast<std::size_t>(part_of(model, ref))].property;
+      if (material == nullptr || property == no_index) continue;
+      const double own = young_of(*material) * property_thickness(model.properties[static_cast<std::size_t>(property)]);
+      for (const Index node : elements.nodes[static_cast<std::size_t>(e)]) use(node, ref, own);
+    }
+  };
+  each(model.shells, ElementKind::shell4);
+  each(model.sh3ns, ElementKind::shell3);
+}
+
+}  // namespace
+
 std::vector<double> secondary_stiffness(const model::Model& model, std::span<const Index> nodes, std::span<const Vec3> x) {
   const auto n = static_cast<std::size_t>(model.node_count());
   std::vector<double> et(n, 0.0), volume(n, 0.0), bulk_volume(n, 0.0);
   std::vector<int> shells(n, 0);
-  const auto material_of = [&](const ElementRef& e) -> const model::Material* {
-    const Index m = model.parts[static_cast<std::size_t>(part_of(model, e))].material;
-    return m == no_index ? nullptr : &model.materials[static_cast<std::size_t>(m)];
-  };
-  const auto add_shells = [&](const auto& elements, ElementKind kind) {
-    for (Index e = 0; e < elements.size(); ++e) {
-      const ElementRef ref{kind, e};
-      const model::Material* material = material_of(ref);
-      const Index property = model.parts[static_cast<std::size_t>(part_of(model, ref))].property;
-      if (material == nullptr || property == no_index) continue;
-      const double own = young_of(*material) * property_thickness(model.properties[static_cast<std::size_t>(property)]);
-      for (const Index node : elements.nodes[static_cast<std::size_t>(e)]) {
-        et[static_cast<std::size_t>(node)] += own;
-        ++shells[static_cast<std::size_t>(node)];
-      }
-    }
-  };
   const auto add_solids = [&](const auto& elements, ElementKind kind) {
     for (Index e = 0; e < elements.size(); ++e) {
       const ElementRef ref{kind, e};
-      const model::Material* material = material_of(ref);
+      const model::Material* material = material_of(model, ref);
       if (material == nullptr) continue;
       const auto& corners = elements.nodes[static_cast<std::size_t>(e)];
       const double share = solid_volume(model, ref, x) / static_cast<double>(corners.size());
@@ -112,8 +121,10 @@ std::vector<double> secondary_stiffness(const model::Model& model, std::span<con
       }
     }
   };
-  add_shells(model.shells, ElementKind::shell4);
-  add_shells(model.sh3ns, ElementKind::shell3);
+  each_shell_at_a_node(model, [&](Index node, const ElementRef&, double own) {
+    et[static_cast<std::size_t>(node)] += own;
+    ++shells[static_cast<std::size_t>(node)];
+  });
   add_solids(model.bricks, ElementKind::brick);
   add_solids(model.tetras, ElementKind::tetra);
   std::vector<double> out;
@@ -124,6 +135,24 @@ std::vector<double> secondary_stiffness(const model::Model& model, std::span<con
     out.push_back(k);
   }
   return out;
+}
+
+std::vector<NodeShare> secondary_shares(const model::Model& model, std::span<const Index> nodes, std::span<const Vec3> x) {
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> position(static_cast<std::size_t>(model.node_count()), none);
+  for (std::size_t k = 0; k < nodes.size(); ++k) position[static_cast<std::size_t>(nodes[k])] = k;
+  std::vector<NodeShare> shares;
+  std::vector<int> shells(nodes.size(), 0);
+  each_shell_at_a_node(model, [&](Index node, const ElementRef& shell, double own) {
+    const std::size_t k = position[static_cast<std::size_t>(node)];
+    if (k == none) return;
+    shares.push_back({k, shell, own});
+    ++shells[k];
+  });
+  std::vector<double> rest = secondary_stiffness(model, nodes, x);
+  for (NodeShare& s : shares) rest[s.node] -= s.stiffness /= shells[s.node];
+  for (std::size_t k = 0; k < nodes.size(); ++k) shares.push_back({k, {}, std::max(0.0, rest[k])});
+  return shares;
 }
 
 std::vector<NodeShare> node_shares(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,

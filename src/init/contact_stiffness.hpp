@@ -21,12 +21,15 @@ namespace abut::init {
 /// the solids around it and B their bulk modulus weighted with volume.
 [[nodiscard]] std::vector<double> secondary_stiffness(const model::Model& model, std::span<const Index> nodes, std::span<const Vec3> x);
 
-/// A face's share of the stiffness of a node.
+/// An element's share of the stiffness of a node.
 struct NodeShare {
   std::size_t node = 0;  ///< position in the list of nodes
   model::ElementRef element;
   double stiffness = 0.0;
 };
+/// The same of TYPE7's nodes: E t over their number of each shell around the node, and what its solids give (no element). Their sums are
+/// secondary_stiffness(), but for rounding. Shell after shell.
+[[nodiscard]] std::vector<NodeShare> secondary_shares(const model::Model& model, std::span<const Index> nodes, std::span<const Vec3> x);
 /// Own stiffness of nodes that no surface describes (TYPE5): a quarter (triangles: a third) of E t of every shell around
 /// the node and of B A^2/V of every free solid face; where a shell lies on a face, the shell's (T18). Node after node.
 [[nodiscard]] std::vector<NodeShare> node_shares(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,

@@ -1,9 +1,11 @@
-// Shells that become thinner (Ithick 1): contact stiffness K = E t and the automatic gap follow the thickness (T16, T25).
+// Shells that become thinner (Ithick 1): contact stiffness K = E t and the automatic gap follow the thickness (T16, T25); the same of
+// TYPE7's facets, nodes and variable gap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <vector>
 
 #include "cycle/run.hpp"
@@ -25,13 +27,17 @@ struct Watch final : abut::cycle::Sink {
     rows.push_back({r.normal_force.z, r.largest_penetration, now.groups[0]->thickness(0)});
     in_contact = std::max(in_contact, r.in_contact);
   }
-  void end(const abut::cycle::Outcome& outcome) override { kind = outcome.kind; }
+  void end(const abut::cycle::Outcome& outcome) override {
+    kind = outcome.kind;
+    message = outcome.message;
+  }
   struct Row {
     double force, penetration, thickness;
   };
   std::vector<Row> rows;
   Index in_contact = 0;
   abut::cycle::Outcome::Kind kind = abut::cycle::Outcome::Kind::failed;
+  std::string message;
 };
 
 /// A perfectly plastic sheet is stretched to 1.3 times its length, its mid-surface held at z = 0, under a stiff plate (elastic, all nodes
@@ -61,7 +67,30 @@ Scene stretched(double above, double gap, bool changes) {
   return s;
 }
 
-Watch run(const Scene& s, const abut::InterfaceChoice& choice) {
+/// The same under TYPE7: nodes of one of the two parts against the other.
+enum class Nodes { of_plate, of_sheet };
+Scene stretched_under_type7(double above, double gap, bool changes, Nodes nodes, int istf, int igap) {
+  Scene s = stretched(above, gap, changes);
+  abut::model::Interface& card = s.model.interfaces[0];
+  const auto surfaces = std::get<abut::model::InterfaceType3>(card.type);
+  const bool of_plate = nodes == Nodes::of_plate;
+  abut::model::InterfaceType7 t7;
+  t7.surface = of_plate ? surfaces.surface_1 : surfaces.surface_2;
+  std::vector<Index>& held = t7.nodes;
+  for (const abut::model::Segment& f :
+       s.model.surfaces[static_cast<std::size_t>(of_plate ? surfaces.surface_2 : surfaces.surface_1)].segments)
+    held.insert(held.end(), f.nodes.begin(), f.nodes.end());
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  t7.istf = istf;
+  t7.igap = igap;
+  t7.gap_given = true;
+  card.type = std::move(t7);
+  card.stfac = 1.0;
+  return s;
+}
+
+Watch run(const Scene& s, const abut::InterfaceChoice& choice = {}) {
   abut::cycle::RunOptions options;
   options.contacts = {choice};
   Watch watch;
@@ -115,6 +144,55 @@ TEST(Thinning, AutomaticGapFollowsTheThickness) {
   }
   EXPECT_GT(checked, 5U);
   EXPECT_EQ(w.rows.back().penetration, 0.0);
+}
+
+// TYPE7: the same motion with and without Ithick 1 has the same pairs at the same depth, so their forces are as K of the pairs. With k =
+// t/t0 of the sheet: its facets k (Istf 0), the mean of facet and node (Istf 2), in series (Istf 5), whichever of the two is the sheet.
+TEST(Thinning, StiffnessOfType7FollowsTheThickness) {
+  struct Case {
+    Nodes nodes;
+    int istf;
+    double (*ratio)(double);
+  };
+  const auto kept = [](double) { return 1.0; };
+  const auto own = [](double k) { return k; };
+  const auto mean = [](double k) { return 0.5 * (1.0 + k); };
+  const auto series = [](double k) { return 2.0 * k / (1.0 + k); };
+  for (const Case& c : {Case{Nodes::of_plate, 0, own}, Case{Nodes::of_sheet, 0, kept}, Case{Nodes::of_plate, 1, kept},
+                        Case{Nodes::of_sheet, 2, mean}, Case{Nodes::of_sheet, 5, series}, Case{Nodes::of_plate, 5, series}}) {
+    const Watch constant = run(stretched_under_type7(1e-3, 1.1e-3, false, c.nodes, c.istf, 0));
+    const Watch follows = run(stretched_under_type7(1e-3, 1.1e-3, true, c.nodes, c.istf, 0));
+    ASSERT_EQ(constant.kind, abut::cycle::Outcome::Kind::finished);
+    ASSERT_EQ(follows.kind, abut::cycle::Outcome::Kind::finished);
+    const double k = follows.rows[(follows.rows.size() - 1) / 100 * 100 - 1].thickness / thickness;
+    const double found = follows.rows.back().force / constant.rows.back().force, expected = c.ratio(k);
+    std::printf("  Istf %d, nodes of the %s: t/t0 %.4f, force over that of the start's thickness %.5f of %.5f\n", c.istf,
+                c.nodes == Nodes::of_plate ? "plate" : "sheet", k, found, expected);
+    EXPECT_LT(k, 0.9);
+    EXPECT_NEAR(found, expected, 1e-3);
+  }
+}
+
+// TYPE7, Igap 1: g = (t_sheet + t_plate)/2, at least Gapmin, whichever of the two has the nodes.
+TEST(Thinning, VariableGapOfType7FollowsTheThickness) {
+  const double above = 0.97 * thickness, least = 0.5 * thickness;
+  for (const Nodes nodes : {Nodes::of_plate, Nodes::of_sheet}) {
+    for (const int istf : {0, 1, 5}) {
+      const Watch w = run(stretched_under_type7(above, least, true, nodes, istf, 1));
+      ASSERT_EQ(w.kind, abut::cycle::Outcome::Kind::finished) << w.message;
+      EXPECT_NEAR(w.rows[2].penetration, thickness - above, 1e-9);
+      std::size_t checked = 0;
+      for (std::size_t i = 200; i < w.rows.size(); i += 50) {
+        const Watch::Row& row = w.rows[i];
+        const auto penetration = [&](double t) { return std::max(0.0, 0.5 * (thickness + t) - above); };
+        EXPECT_LE(row.penetration, penetration(w.rows[i - 101].thickness) + 2e-3 * thickness);
+        EXPECT_GE(row.penetration, penetration(row.thickness) - 2e-3 * thickness);
+        ++checked;
+      }
+      EXPECT_GT(checked, 5U);
+      EXPECT_LT(w.rows.back().thickness, 0.9 * thickness);
+    }
+  }
 }
 
 }  // namespace

@@ -87,7 +87,8 @@ class Interface {
   Interface& operator=(Interface&&) noexcept;
 
   /// @param side 0 first, 1 second. Of nodes_to_surface and both_sides 1 is the surface and 0 the held nodes: stiffness and active
-  ///        are then #nodes (an inactive node is let go), and so is thickness (automatic_gap).
+  ///        are then #nodes (an inactive node is let go), and so is thickness (automatic_gap; of both_sides with node_gap and
+  ///        facet_gap: they become half of it).
   /// Spans that are empty leave what was set before. May be called at any time.
   /// @throws std::invalid_argument on a side that is neither 0 nor 1, a wrong length, a negative or non-finite stiffness or thickness
   void set_surface(int side, const SurfaceState& state);

@@ -64,7 +64,8 @@ struct Options {
   double tangential_ratio = 0.1;  ///< K_t / K_n (T21); > 0
   double gap = 0.0;               ///< length (T25..T28); >= 0
   /// Gap of a pair from thickness: half of the held node's and half of the facet's at the contact point (SurfaceState::thickness: 0 for
-  /// solids; averaged at nodes, interpolated over facets), at least `gap`. With closest points only (Rules::edges).
+  /// solids; averaged at nodes, interpolated over facets), at least `gap`; at inward folds each facet counts with its own. With closest
+  /// points only (Rules::edges).
   bool automatic_gap = false;
   double birth = 0.0;   ///< time from which the interface acts
   double death = 1e30;  ///< time after which it does not

@@ -47,12 +47,7 @@ BothSides::BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions
       (options_.node_size.size() != nodes.size() || static_cast<Index>(options_.facet_size.size()) != surface_.facet_count())) {
     throw std::invalid_argument("node_size, facet_size: one value per node, one per facet");
   }
-  narrowest_ = options_.gap;
-  if (variable_gap() && !nodes.empty() && surface_.facet_count() > 0) {
-    widest_ = *std::max_element(options_.facet_gap.begin(), options_.facet_gap.end());
-    narrowest_ = std::max(options_.gap, *std::min_element(options_.node_gap.begin(), options_.node_gap.end()) +
-                                            *std::min_element(options_.facet_gap.begin(), options_.facet_gap.end()));
-  }
+  bound_gaps();
   own_.assign(held_.nodes().begin(), held_.nodes().end());
   own_.insert(own_.end(), surface_.nodes().begin(), surface_.nodes().end());
   std::sort(own_.begin(), own_.end());
@@ -65,10 +60,22 @@ BothSides::BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions
   off_.assign(at(surface_.facet_count()), 0);
 }
 
+void BothSides::bound_gaps() {
+  narrowest_ = options_.gap;
+  if (!variable_gap() || held_.node_count() == 0 || surface_.facet_count() == 0) return;
+  widest_ = *std::max_element(options_.facet_gap.begin(), options_.facet_gap.end());
+  narrowest_ = std::max(options_.gap, *std::min_element(options_.node_gap.begin(), options_.node_gap.end()) +
+                                          *std::min_element(options_.facet_gap.begin(), options_.facet_gap.end()));
+}
+
 void BothSides::set_surface(int side, const SurfaceState& state) {
   if (side < 0 || side > 1) throw std::invalid_argument("contact: side " + std::to_string(side) + " is neither 0 nor 1");
   (side == 1 ? surface_ : held_).set(state, false);
   stale_ = true;
+  if (!variable_gap()) return;
+  std::vector<double>& gaps = side == 1 ? options_.facet_gap : options_.node_gap;
+  for (std::size_t k = 0; k < state.thickness.size(); ++k) gaps[k] = 0.5 * state.thickness[k];
+  bound_gaps();
 }
 
 double BothSides::pair_gap(Index node, Index facet) const { return options_.pair_gap(at(node), at(surface_.listed(facet))); }

@@ -62,6 +62,7 @@ class BothSides final : public InterfaceModel {
     double elastic = 0.0, friction_work = 0.0, damping_work = 0.0, stepped = 0.0;
   };
 
+  void bound_gaps();
   [[nodiscard]] bool variable_gap() const { return !options_.node_gap.empty(); }
   [[nodiscard]] Met meet(const Side& held, const Side& surface, Index node, Index facet, double gap) const;
   /// Facets that the node can meet: listed, active, not its own; ascending.

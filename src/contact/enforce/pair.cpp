@@ -52,14 +52,20 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   const Taper t = taper(patch, c.s, c.t, wider.value);
   if (c.beyond || t.value <= 0.0) return result;
 
-  double k1 = 0.0;
-  double smallest = 1e300, largest = 0.0;
+  double k1 = 0.0, thickness = 0.0;
+  double smallest = 1e300, largest = 0.0, thinnest = 1e300, thickest = 0.0;
   for (std::size_t i = 0; i < corners; ++i) {
     const double k = surface.corner_stiffness(corner[i]);
     k1 += c.weight[i] * k;
     smallest = std::min(smallest, k);
     largest = std::max(largest, k);
+    if (!gap_follows) continue;
+    const double t_i = surface.node_thickness(corner[i]);
+    thickness += c.weight[i] * t_i;
+    thinnest = std::min(thinnest, t_i);
+    thickest = std::max(thickest, t_i);
   }
+  gap_follows = gap_follows && thinnest <= thickness && thickness <= thickest;  // the same of thickness
   // Strips extrapolate: keep the field within its corners' values there.
   const bool clipped = k1 < smallest || k1 > largest;
   k1 = std::clamp(k1, smallest, largest);
@@ -97,7 +103,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
       tangent[a] += dh[a][i] * patch.x[i];
     }
     push[a] = phi * (t.value * slope * dk1 + pair * (free.d[a][0] * t.ds + free.d[a][1] * t.dt));
-    if (dgap != 0.0) push[a] += result.stiffness * (law.force(p) + law.gap_slope(p)) * dgap;
+    if (dgap != 0.0) push[a] += result.stiffness * (own.grows * law.force(p) + law.gap_slope(p)) * dgap;
   }
   std::array<double, 2> shift{};  // c^a
   const Vec3 r = x - c.point;

@@ -44,6 +44,7 @@ struct Depth {
   double distance = 0.0;  ///< signed, of the node to the surface: strips widen with it
   double slope = 1.0;     ///< `depth` changes by minus this per length of the pair's own distance
   bool nearest = true;    ///< `distance` is the pair's own
+  double grows = 1.0;     ///< `depth` changes by this per length of gap
 };
 
 /// @param scale, node_stiffness  s and K2

@@ -59,7 +59,8 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
       covered_(held_nodes, 0.0),
       in_front_(held_nodes, 0),
       quiet_(held_nodes, awake),
-      slips_(held_nodes, 1) {}
+      slips_(held_nodes, 1),
+      seen_gap_(options.automatic_gap ? held_nodes : 0, 0.0) {}
 
 void Pass::start(const Side& held, const Side& surface) {
   started_ = true;

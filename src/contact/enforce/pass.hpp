@@ -75,10 +75,10 @@ class Pass {
     Vec3 point, normal;
     double distance = 0.0;
     double penetration = 0.0;
-    double full_gap = 0.0;  ///< of the pair, whatever initial penetration takes from it
+    double full_gap = 0.0;  ///< of the pair as seen from its point (outer_gap()), whatever initial penetration takes from it
     NormalLaw law;
     Measure measure;                ///< what `pair` is made from, where it is not made yet
-    double gap = 0.0;               ///< the same
+    double gap = 0.0;               ///< the same: of that facet, less what initial penetration takes
     bool pair_open = false;         ///< a free node out of contact: `pair` is made if the coming step may need its stiffness
     PairForce pair;                 ///< where several facets are equally near: the mean of theirs
     std::size_t first_further = 0;  ///< further facets that the force acts on: GroupSums::further from here
@@ -89,6 +89,8 @@ class Pass {
   // that stores more though it is less near.
   struct Further {
     Measure measure;
+    double gap = 0.0;  ///< of the node with it, less what initial penetration takes from it
+    NormalLaw law;
     PairForce own;       ///< as if it were the nearest, but for what widens its strips
     bool equal = false;  ///< as near as the first
     bool acts = false;
@@ -162,6 +164,7 @@ class Pass {
   // lists says whether it is measured); Quiet.
   std::vector<std::uint8_t> in_front_, quiet_;
   std::vector<std::uint8_t> slips_;  ///< of every held node in contact: its friction is at its limit (output only, no history)
+  std::vector<double> seen_gap_;     ///< the same where gaps are automatic: its gap (Touch::full_gap)
   Executor executor_;
   Candidates candidates_;
   IncrementalSearch incremental_;
@@ -179,6 +182,19 @@ class Pass {
   [[nodiscard]] double reach_of_stronger(double stiffness, double strongest, double p) const;
   /// How much of a node's offset the gradual start gives back to its gap in this step.
   [[nodiscard]] double growth(const NodeState& before) const;
+  struct OuterGap {
+    double gap = 0.0, of_facet = 0.0;
+  };
+  /// Gap of node i at its nearest point, by the facet whose outer face it is deepest in: a facet j that is less near by D counts for
+  /// g_j - D delta/(delta - D) (docs/theory/contact.md, 3). Where thickness is uneven, this may not be the nearest facet.
+  /// @param by  what the nearest one, m, was looked for with
+  [[nodiscard]] OuterGap outer_gap(const Side& held, const Side& surface, Index i, const Measure& m, const HeldBy& by, double strip,
+                                   bool was_held) const;
+  /// Calls use(measure, as near as m) for each facet on the node's side, other than m, that is less near by less than `beyond`.
+  template <class Use>
+  void each_beside(const Side& surface, Index i, const Vec3& x, const Measure& m, const HeldBy& by, double strip, bool was_held,
+                   double beyond, const Use& use) const;
+  [[nodiscard]] bool uneven_gap(const Side& surface) const { return options_.automatic_gap && !surface.evenly_thick(); }
   /// Gap of a node at this distance, less what initial penetration takes from it.
   [[nodiscard]] double gap_of(double full_gap, double distance, double depth, NodeState& after) const;
   /// Gap of a pair: the interface's, or from the thickness of both sides.
@@ -192,8 +208,8 @@ class Pass {
   void look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
                     Touch& touch, GroupSums& sums);
   /// The pair of facet `nearest` and node i, with whichever of `all` stores the most for it.
-  void add_strongest(const Side& held, const Side& surface, Index i, const NormalLaw& law, double gap, bool widens, Further& nearest,
-                     std::span<Further> all, double share, PairForce& sum) const;
+  void add_strongest(const Side& held, const Side& surface, Index i, bool widens, Further& nearest, std::span<Further> all, double share,
+                     PairForce& sum) const;
   void measure_plain(const Side& held, const Side& surface, Index i, Touch& touch);
   /// Stiffness of a node with a facet, neither interpolated nor tapered (T13; TYPE5: half of the facet's).
   [[nodiscard]] double plain_stiffness(const Side& held, const Side& surface, Index i, Index facet) const;

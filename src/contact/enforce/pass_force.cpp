@@ -300,6 +300,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   held_loads.load(i).own_normal = on_node;
   totals.normal += on_node;
 
+  if (!seen_gap_.empty()) seen_gap_[at(i)] = touch.full_gap;
   after.held = touch.widens ? 2 : 1;
   after.facet = touch.facet;
   after.normal = touch.normal;

@@ -21,18 +21,12 @@ double Pass::reach_of_stronger(double stiffness, double strongest, double p) con
   return (1.0 - std::sqrt(share)) * p * length / (p + length);
 }
 
-void Pass::look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
-                        Touch& touch, GroupSums& sums) {
-  const Vec3 x = held.x()[at(i)];
+template <class Use>
+void Pass::each_beside(const Side& surface, Index i, const Vec3& x, const Measure& m, const HeldBy& by, double strip, bool was_held,
+                       double beyond, const Use& use) const {
   const double distance = std::sqrt(m.closest.squared_distance);
-  const double size = surface.facet_area(m.facet);
-  const double gap = touch.penetration + m.distance;
-  const double top = strongest(held, surface, i);
-  const double beyond = reach_of_stronger(touch.pair.stiffness, top, touch.penetration);
   const double reach = was_held ? 1e300 : std::max(largest_gap_, largest_depth_);  // what every list holds
-  if (outgrows(i, distance + beyond)) sums.outgrown = true;
   const double equal = equally_near * distance;
-  touch.first_further = sums.further.size();
   // Who may not be the nearest of a held node (nearest()) may not store more either: else it would stop to where it comes nearer.
   const auto may_be_nearest = [&](const Measure& its) {
     if (by.facet == no_index || pushes_alike(its, by.normal)) return true;
@@ -52,15 +46,53 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
     if (other.beyond) continue;
     const Measure its = signed_measure(surface, f, other, x);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
-    if (!may_be_nearest(its)) continue;
-    // The same point, seen from the facet across, is the same contact unless its strip fades elsewhere.
-    const bool same = squared_norm(other.point - m.closest.point) < 1e-12 * size;
-    if (same && beyond <= 0.0) continue;
-    const PairForce own = force_of(held, surface, its, i, Depth{gap - its.distance, m.distance}, touch.widens);
-    if (same && own.stiffness <= (1.0 + equally_strong) * touch.pair.stiffness) continue;
-    if (sums.further.size() == touch.first_further) sums.further.push_back({m, touch.pair, true, false, {}});
-    sums.further.push_back({its, own, as_near && !same, false, {}});
+    if (may_be_nearest(its)) use(its, as_near);
   }
+}
+
+Pass::OuterGap Pass::outer_gap(const Side& held, const Side& surface, Index i, const Measure& m, const HeldBy& by, double strip,
+                               bool was_held) const {
+  const double own = full_gap(held, surface, i, m.facet, m.closest.weight);
+  OuterGap outer{own, own};
+  const double more = largest_gap_ - own;
+  if (!uneven_gap(surface) || more <= 0.0) return outer;
+  const double length = stronger_within * longest_;
+  each_beside(surface, i, held.x()[at(i)], m, by, strip, was_held, more * length / (more + length), [&](const Measure& its, bool) {
+    const double within = widening_[at(its.facet)] > 0.0 ? stronger_within / widening_[at(its.facet)] : 0.0;
+    const double less = std::max(0.0, std::abs(its.distance) - std::abs(m.distance));
+    if (less >= within) return;
+    const double of_facet = full_gap(held, surface, i, its.facet, its.closest.weight);
+    const double gap = of_facet - less * within / (within - less);
+    if (gap > outer.gap) outer = {gap, of_facet};
+  });
+  return outer;
+}
+
+void Pass::look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
+                        Touch& touch, GroupSums& sums) {
+  const Vec3 x = held.x()[at(i)];
+  const double distance = std::sqrt(m.closest.squared_distance);
+  const double size = surface.facet_area(m.facet);
+  const double gap = touch.penetration + m.distance;
+  const double beyond = uneven_gap(surface) ? reach_of_stronger(0.0, 1.0, touch.penetration + (largest_gap_ - touch.full_gap))
+                                            : reach_of_stronger(touch.pair.stiffness, strongest(held, surface, i), touch.penetration);
+  if (outgrows(i, distance + beyond)) sums.outgrown = true;
+  touch.first_further = sums.further.size();
+  const auto gap_with = [&](double full) { return gap + (full - touch.full_gap); };
+  each_beside(surface, i, x, m, by, strip, was_held, beyond, [&](const Measure& its, bool as_near) {
+    // The same point, seen from the facet across, is the same contact unless its strip fades elsewhere.
+    const bool same = squared_norm(its.closest.point - m.closest.point) < 1e-12 * size;
+    if (same && beyond <= 0.0) return;
+    const double full = full_gap(held, surface, i, its.facet, its.closest.weight);
+    const double its_gap = gap_with(full);
+    const PairForce own = force_of(held, surface, its, i, Depth{its_gap - its.distance, m.distance}, touch.widens);
+    if (same && own.stiffness <= (1.0 + equally_strong) * touch.pair.stiffness) return;
+    if (sums.further.size() == touch.first_further) {
+      const double of_nearest = full_gap(held, surface, i, m.facet, m.closest.weight);
+      sums.further.push_back({m, gap_with(of_nearest), law_of(of_nearest), touch.pair, true, false, {}});
+    }
+    sums.further.push_back({its, its_gap, law_of(full), own, as_near && !same, false, {}});
+  });
   if (sums.further.size() == touch.first_further) return;
   const std::span<Further> all = std::span(sums.further).subspan(touch.first_further);
   touch.equals = static_cast<int>(std::count_if(all.begin(), all.end(), [](const Further& one) { return one.equal; }));
@@ -69,7 +101,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   for (Further& one : all) {
     if (!one.equal) continue;
     normal += one.measure.normal;
-    add_strongest(held, surface, i, touch.law, gap, touch.widens, one, all, 1.0 / touch.equals, sum);
+    add_strongest(held, surface, i, touch.widens, one, all, 1.0 / touch.equals, sum);
   }
   sum.on_facet = all[0].on_facet;
   all[0].acts = false;  // it has the node's own reaction
@@ -82,21 +114,21 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   }
 }
 
-void Pass::add_strongest(const Side& held, const Side& surface, Index i, const NormalLaw& law, double gap, bool widens, Further& nearest,
-                         std::span<Further> all, double share, PairForce& sum) const {
+void Pass::add_strongest(const Side& held, const Side& surface, Index i, bool widens, Further& nearest, std::span<Further> all,
+                         double share, PairForce& sum) const {
   const double sign = nearest.measure.distance < 0.0 ? -1.0 : 1.0;
-  const double p = gap - nearest.measure.distance;
   struct Other {
-    double length, less, depth;
+    double length, less, p, depth;  // p: were it as near as the nearest
   };
   const auto seen = [&](const Further& one) {
     const double length = stronger_within / widening_[at(one.measure.facet)];
     const double less = std::max(0.0, sign * (one.measure.distance - nearest.measure.distance));
-    return Other{length, less, p - less * (1.0 + p / length)};
+    const double p = one.gap - nearest.measure.distance;
+    return Other{length, less, p, p - less * (1.0 + p / length)};
   };
   const auto stores = [&](const Further& one) {
     if (&one == &nearest || widening_[at(one.measure.facet)] <= 0.0) return 0.0;
-    return one.own.stiffness * law.potential(seen(one).depth);
+    return one.own.stiffness * one.law.potential(seen(one).depth);
   };
   double most = 0.0;
   for (const Further& one : all) most = std::max(most, stores(one));
@@ -119,15 +151,16 @@ void Pass::add_strongest(const Side& held, const Side& surface, Index i, const N
   for (Further& one : all) {
     if (!strong(one)) continue;
     const Other o = seen(one);
-    const double slope = sign * (1.0 + p / o.length);
+    const double slope = sign * (1.0 + o.p / o.length);
     const double of_nearest = 1.0 - o.less / o.length - slope;
-    PairForce part = force_of(held, surface, one.measure, i, Depth{o.depth, nearest.measure.distance, slope, false}, widens);
-    part.magnitude = part.stiffness * law.force(o.depth);
+    PairForce part =
+        force_of(held, surface, one.measure, i, Depth{o.depth, nearest.measure.distance, slope, false, 1.0 - o.less / o.length}, widens);
+    part.magnitude = part.stiffness * one.law.force(o.depth);
     const Vec3 push = (of_nearest * part.magnitude + part.of_wider) * nearest.measure.normal;
     part.on_node += push;
     const double turn =
         slope * slope + of_nearest * of_nearest + 2.0 * slope * of_nearest * dot(one.measure.normal, nearest.measure.normal);
-    part.extra_tangent += std::max(turn - 1.0, 0.0) * part.stiffness * law.tangent(p) + 2.0 * part.magnitude / o.length;
+    part.extra_tangent += std::max(turn - 1.0, 0.0) * part.stiffness * one.law.tangent(o.p) + 2.0 * part.magnitude / o.length;
     add(part, share);
     for (std::size_t c = 0; c < 4; ++c) {
       one.on_facet[c] += share * part.on_facet[c];

@@ -105,6 +105,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     m = asks ? nearest_of_all(held, surface, i) : Measure{};
     touch.away = !asks;
   }
+  double own_gap = 0.0;  // of the nearest facet alone
   const auto take = [&](const Measure& measure) {
     touch.facet = measure.facet;
     touch.known = true;
@@ -112,8 +113,10 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     touch.point = measure.closest.point;
     touch.normal = measure.normal;
     touch.distance = measure.distance;
-    touch.full_gap = full_gap(held, surface, i, measure.facet, measure.closest.weight);
-    touch.law = law_of(touch.full_gap);
+    own_gap = full_gap(held, surface, i, measure.facet, measure.closest.weight);
+    const OuterGap outer = outer_gap(held, surface, i, measure, by, strip, was_held);
+    touch.full_gap = outer.gap;
+    touch.law = law_of(outer.of_facet);
   };
   bool meets = false;
   double gap = 0.0;
@@ -166,12 +169,12 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   }
   touch.pair_open = !meets && !was_held;
   touch.measure = m;
-  touch.gap = gap;
+  touch.gap = gap + (own_gap - touch.full_gap);
   // Beyond the end of the nearest strip another facet may still hold the node.
   const bool beside = m.closest.beyond && touch.penetration > 0.0 && after.ignored == 0 && after.offset == 0.0 && !touch.lost &&
                       (was_held || -m.distance <= depth_[at(m.facet)]);
   if (touch.pair_open && !beside) return;
-  touch.pair = force_of(held, surface, m, i, gap, touch.widens);
+  touch.pair = force_of(held, surface, m, i, touch.gap, touch.widens);
   if (meets || beside) look_further(held, surface, m, i, by, strip, was_held, touch, sums);
   touch.contact = (meets || beside) && touch.pair.magnitude > 0.0;
   touch.pair_open = touch.pair_open && !touch.contact;
@@ -291,10 +294,10 @@ double Pass::opening_of(const Side& held, const Side& surface, Index i) const {
     return p.inside ? p.distance - options_.gap : none;
   }
   const NodeState& node = now(i);
-  const auto opening = [&](const Measure& m) { return m.distance - full_gap(held, surface, i, m.facet, m.closest.weight); };
   if (node.held != 0 && node.facet != no_index && surface.active(node.facet)) {
     const double strip = border_strip + (node.held == 2 ? border_widening : 0.0);
-    return opening(signed_measure(surface, node.facet, closest_point(extended(surface, node.facet, strip), x), x));
+    const Measure m = signed_measure(surface, node.facet, closest_point(extended(surface, node.facet, strip), x), x);
+    return m.distance - (seen_gap_.empty() ? options_.gap : seen_gap_[at(i)]);
   }
   if (!candidates_.made()) return none;
   ClosestPoint nearest;
@@ -306,7 +309,9 @@ double Pass::opening_of(const Side& held, const Side& surface, Index i) const {
     nearest = other;
     facet = entry.facet;
   }
-  return facet == no_index || nearest.beyond ? none : opening(signed_measure(surface, facet, nearest, x));
+  if (facet == no_index || nearest.beyond) return none;
+  const Measure m = signed_measure(surface, facet, nearest, x);
+  return m.distance - outer_gap(held, surface, i, m, {}, border_strip, false).gap;
 }
 
 void Pass::add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const {

@@ -90,6 +90,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   }
   largest_corner_stiffness_ = 0.0;
   smallest_corner_stiffness_ = 1e300;
+  double thinnest = 1e300, thickest = 0.0;  // of active corners
   if (!thickness_.empty()) node_thickness_.resize(nodes_.size());
   for (Index s = 0; s < node_count(); ++s) {
     double sum = 0.0;
@@ -112,7 +113,10 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     largest_corner_stiffness_ = std::max(largest_corner_stiffness_, corner_stiffness_[at(s)]);
     if (around > 0) smallest_corner_stiffness_ = std::min(smallest_corner_stiffness_, corner_stiffness_[at(s)]);
     if (!thickness_.empty()) node_thickness_[at(s)] = around > 0 ? thick / around : 0.0;
+    if (around > 0) thinnest = std::min(thinnest, thick / around);
+    if (around > 0) thickest = std::max(thickest, thick / around);
   }
+  evenly_thick_ = thinnest >= (1.0 - 1e-9) * thickest;
 }
 
 double Side::thickness_at(Index f, const std::array<double, 4>& weight) const {

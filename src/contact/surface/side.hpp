@@ -48,6 +48,8 @@ class Side {
   /// The same interpolated over a facet; beyond its sides within its corners' values.
   [[nodiscard]] double thickness_at(Index f, const std::array<double, 4>& weight) const;
   [[nodiscard]] double largest_thickness() const;
+  /// All corners are equally thick, to rounding.
+  [[nodiscard]] bool evenly_thick() const { return evenly_thick_; }
 
   /// Bit e: side e of the facet is a free border.
   [[nodiscard]] std::uint8_t borders(Index f) const { return borders_[at(f)]; }
@@ -81,6 +83,7 @@ class Side {
   std::vector<std::uint8_t> active_, node_active_, borders_;
   std::vector<double> facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_, node_thickness_;
   double largest_corner_stiffness_ = 0.0, smallest_corner_stiffness_ = 0.0;  ///< of active corners
+  bool evenly_thick_ = true;
   std::vector<Vec3> x_;
 };
 

@@ -89,16 +89,18 @@ struct Path {
 };
 
 // One node dragged along a closed path without friction: CX over the lap.
+/// @param thickness  #F: the gap is half of it where that is more; empty: none
 inline Path lap(Rules rules, double gap, const std::vector<Facet>& facets, const std::vector<double>& stiffness, Host host,
-                const std::function<Vec3(double)>& where, int steps) {
+                const std::function<Vec3(double)>& where, int steps, const std::vector<double>& thickness = {}) {
   Options o;
   o.rules = rules;
   o.rules.switch_correction = false;  // a path walked at no speed
   o.gap = gap;
+  o.automatic_gap = !thickness.empty();
   o.stiffness_scale = 1.0;
   const Index n = host.add(where(0.0), 1.0);
   Interface i = Interface::nodes_to_surface({n}, {1.0}, Surface(facets), o);
-  i.set_surface(1, {stiffness, {}, {}});
+  i.set_surface(1, {stiffness, thickness, {}});
   std::vector<Vec3> x = host.x;
   host.contact(i);
   Path path;

@@ -24,9 +24,10 @@ struct Truth {
 
 class Oracle {
  public:
-  /// @param length  #F at the start: square root of the facets' areas
-  Oracle(double gap, double depth_limit, Initial initial, std::vector<double> length)
-      : gap_(gap), depth_limit_(depth_limit), initial_(initial), length_(std::move(length)) {}
+  /// @param length     #F at the start: square root of the facets' areas
+  /// @param automatic  the gap is half of the surface's thickness where that is more
+  Oracle(double gap, double depth_limit, Initial initial, std::vector<double> length, bool automatic)
+      : gap_(gap), depth_limit_(depth_limit), initial_(initial), length_(std::move(length)), automatic_(automatic) {}
 
   /// @param before  the surface a step ago; x, x_before, v of the node; v_surface velocities of the surface's nodes
   void step(const Side& before, const Side& surface, const Vec3& x_before, const Vec3& x, const Vec3& v, std::span<const Vec3> v_surface,
@@ -40,8 +41,8 @@ class Oracle {
     const bool here = !m.closest.beyond;  // at the outer end of a strip there is none
     const bool in_front = here && m.distance >= 0.0;
     // Initial penetration, and what is left of its offset.
-    const double full = gap_ - m.distance;
-    const double limit = depth_limit_ > 0.0 ? depth_limit_ : 0.5 * length_[at(m.facet)];
+    const double full = outer_gap(surface, x, m, by, strip, was_held) - m.distance;
+    const double limit = depth_limit(surface, m.facet);
     if (first && initial_ == Initial::offset && m.distance >= -limit) t.offset = std::max(full, 0.0);
     if (!first) t.offset = full <= 0.0 ? 0.0 : std::min(t.offset, full);
     // From behind: ignored until it is seen in front; its gap then begins at its distance there.
@@ -79,7 +80,7 @@ class Oracle {
         if (!caught.closest.beyond && caught.distance < 0.0) {
           m = caught;
           by = {hit, on.normal};
-          p = gap_ - m.distance;
+          p = outer_gap(surface, x, m, by, strip, was_held) - m.distance;
           meets = true;
           t.crossed = true;
           t.ignored = false;
@@ -91,13 +92,13 @@ class Oracle {
     if (!was_held) t.from_front = was_in_front || t.crossed || first;
     // Beyond the end of the nearest strip another facet may still hold the node.
     const bool beside = !here && !lost && p > 0.0 && !t.ignored && t.offset == 0.0 && (was_held || -m.distance <= limit);
-    t.touches = (meets && !faded(surface, m, m.distance, t.from_front)) ||
-                ((meets || beside) && stored_elsewhere(surface, x, m, p, by, strip, was_held, t.from_front));
+    const bool by_nearest = meets && gap(surface, m) - t.offset - m.distance > 0.0 && !faded(surface, m, m.distance, t.from_front);
+    t.touches = by_nearest || ((meets || beside) && stored_elsewhere(surface, x, m, t.offset, by, strip, was_held, t.from_front));
     t.held = t.touches;
     t.penetration = t.touches ? p : 0.0;
     if (t.touches && beside) {  // as the strips of a held node show it
       const Patch wide = extended(surface, m.facet, border_strip + (t.from_front ? border_widening : 0.0));
-      t.penetration = std::max(0.0, gap_ - t.offset - signed_measure(surface, m.facet, closest_point(wide, x), x).distance);
+      t.penetration = std::max(0.0, p + m.distance - signed_measure(surface, m.facet, closest_point(wide, x), x).distance);
     }
     if (!t.held) return;
     t.facet = m.facet;
@@ -108,15 +109,48 @@ class Oracle {
   double gap_, depth_limit_;
   Initial initial_;
   std::vector<double> length_;
+  bool automatic_;
 
-  /// Section 3: a facet that is further by D on the same side stores kappa phi(P - D (1 + P/delta)), delta a quarter of its length; strips
-  /// widen with the depth behind the nearest. Of a held node only those count that its nearest was chosen from.
-  [[nodiscard]] bool stored_elsewhere(const Side& surface, const Vec3& x, const Measure& nearest, double p, const HeldBy& by, double strip,
-                                      bool was_held, bool from_front) const {
+  [[nodiscard]] double gap(const Side& surface, const Measure& m) const {
+    return automatic_ ? std::max(gap_, 0.5 * surface.thickness_at(m.facet, m.closest.weight)) : gap_;
+  }
+  [[nodiscard]] double depth_limit(const Side& surface, Index f) const {
+    if (depth_limit_ > 0.0) return depth_limit_;
+    const double half = 0.5 * length_[at(f)];
+    return automatic_ ? std::min(half, std::max(surface.thickness(f), gap_)) : half;
+  }
+
+  /// Section 3: the gap by the facet whose outer face the node is deepest in, one further by D counting for g - D delta/(delta - D).
+  [[nodiscard]] double outer_gap(const Side& surface, const Vec3& x, const Measure& nearest, const HeldBy& by, double strip,
+                                 bool was_held) const {
+    double most = gap(surface, nearest);
+    if (!automatic_) return most;
+    each_beside(surface, x, nearest, by, strip, was_held, [&](const Measure& m, double further) {
+      const double delta = 0.25 * length_[at(m.facet)];
+      if (further < delta) most = std::max(most, gap(surface, m) - further * delta / (delta - further));
+      return false;
+    });
+    return most;
+  }
+
+  /// Section 3: a facet that is further by D on the same side stores kappa phi(P - D (1 + P/delta)), P by its own gap, delta a quarter of
+  /// its length; strips widen with the depth behind the nearest. Of a held node only those count that its nearest was chosen from.
+  [[nodiscard]] bool stored_elsewhere(const Side& surface, const Vec3& x, const Measure& nearest, double offset, const HeldBy& by,
+                                      double strip, bool was_held, bool from_front) const {
+    return each_beside(surface, x, nearest, by, strip, was_held, [&](const Measure& m, double further) {
+      const double p = gap(surface, m) - offset - nearest.distance;
+      return p > 0.0 && p - further * (1.0 + p / (0.25 * length_[at(m.facet)])) > 0.0 && !faded(surface, m, nearest.distance, from_front);
+    });
+  }
+
+  /// Until `use(facet, how much further)` says true of one.
+  template <class Use>
+  bool each_beside(const Side& surface, const Vec3& x, const Measure& nearest, const HeldBy& by, double strip, bool was_held,
+                   const Use& use) const {
     const bool in_front =
         by.facet != no_index && signed_measure(surface, by.facet, closest_point(extended(surface, by.facet, strip), x), x).distance >= 0.0;
-    double reach = was_held ? 1e300 : gap_;
-    for (const double length : length_) reach = std::max(reach, depth_limit_ > 0.0 ? depth_limit_ : 0.5 * length);
+    double reach = was_held ? 1e300 : std::max(gap_, automatic_ ? 0.5 * surface.largest_thickness() : 0.0);
+    for (Index f = 0; f < surface.facet_count(); ++f) reach = std::max(reach, depth_limit(surface, f));
     for (Index f = 0; f < surface.facet_count(); ++f) {
       if (f == nearest.facet) continue;
       const ClosestPoint c = closest_point(extended(surface, f, strip), x);
@@ -124,8 +158,7 @@ class Oracle {
       const Measure m = signed_measure(surface, f, c, x);
       if (m.distance * nearest.distance < 0.0 || dot(m.normal, nearest.normal) < -0.5) continue;
       if (by.facet != no_index && !(dot(m.normal, by.normal) > -0.5 || (in_front && m.distance >= 0.0))) continue;
-      const double further = std::max(0.0, std::abs(m.distance) - std::abs(nearest.distance));
-      if (p - further * (1.0 + p / (0.25 * length_[at(f)])) > 0.0 && !faded(surface, m, nearest.distance, from_front)) return true;
+      if (use(m, std::max(0.0, std::abs(m.distance) - std::abs(nearest.distance)))) return true;
     }
     return false;
   }
@@ -153,6 +186,7 @@ struct TruthCase {
   Initial initial = Initial::keep;
   int nodes = 60, steps = 60;
   unsigned seed = 1;
+  bool automatic = false;  ///< facets have thicknesses of 0.5 to 2.5 times the gap, or 0.02 to 0.1 without
 };
 struct TruthCount {
   long node_steps = 0, touching = 0, behind = 0, crossed = 0, wrong = 0;
@@ -174,17 +208,22 @@ inline TruthCount interface_against_truth(const TruthCase& c) {
   }
   const std::vector<Vec3> at_rest = host.x;
   Side surface(Surface(main), true);
-  surface.set({}, false);
+  std::vector<double> thickness;
+  for (std::size_t f = 0; f < (c.automatic ? main.size() : 0); ++f) {
+    thickness.push_back((c.gap > 0.0 ? c.gap : 0.04) * (0.5 + static_cast<double>(f * 7919 % 9) / 4.0));
+  }
+  surface.set({{}, thickness, {}}, false);
   surface.gather(host.x);
   std::vector<double> length;
   for (Index f = 0; f < surface.facet_count(); ++f) length.push_back(std::sqrt(surface.facet_area(f)));
-  const Oracle oracle(c.gap, c.depth_limit, c.initial, length);
+  const Oracle oracle(c.gap, c.depth_limit, c.initial, length, c.automatic);
   Options options;
   options.gap = c.gap;
   options.depth_limit = c.depth_limit;
   options.initial = c.initial;
+  options.automatic_gap = c.automatic;
   Interface made = Interface::nodes_to_surface(nodes, std::vector<double>(nodes.size(), 1.0), Surface(main), options);
-  set_stiffness(made, 1, main.size(), 1.0);
+  made.set_surface(1, {std::vector<double>(main.size(), 1.0), thickness, {}});
   std::vector<Truth> truth(nodes.size());
   const Vec3 axis = normalized({0.3, 0.5, 0.8});
   double angle = 0.0;
@@ -244,7 +283,7 @@ inline TruthCount interface_against_truth(const TruthCase& c) {
 }
 
 /// All shapes, quadrilaterals and triangles, with and without gap, the default depth limit and a shallow one, both treatments at the start.
-inline TruthCount all_truths(int nodes, int steps, const std::function<void(const TruthCase&, const TruthCount&)>& each) {
+inline TruthCount all_truths(int nodes, int steps, bool automatic, const std::function<void(const TruthCase&, const TruthCount&)>& each) {
   TruthCount all;
   unsigned seed = 500;
   for (const Shape& shape : shapes()) {
@@ -252,7 +291,7 @@ inline TruthCount all_truths(int nodes, int steps, const std::function<void(cons
       for (const double gap : {0.0, 0.05}) {
         for (const double depth : {0.0, 0.03}) {
           for (const Initial initial : {Initial::keep, Initial::offset}) {
-            const TruthCase c{shape, 9, 8, triangles, gap, depth, initial, nodes, steps, ++seed};
+            const TruthCase c{shape, 9, 8, triangles, gap, depth, initial, nodes, steps, ++seed, automatic};
             const TruthCount one = interface_against_truth(c);
             each(c, one);
             all.node_steps += one.node_steps;

@@ -10,8 +10,8 @@
 namespace abut::contact {
 namespace {
 
-test::TruthCount compare(int nodes, int steps) {
-  const test::TruthCount all = test::all_truths(nodes, steps, [](const test::TruthCase& c, const test::TruthCount& one) {
+test::TruthCount compare(int nodes, int steps, bool automatic = false) {
+  const test::TruthCount all = test::all_truths(nodes, steps, automatic, [](const test::TruthCase& c, const test::TruthCount& one) {
     EXPECT_EQ(one.wrong, 0) << c.shape.name << (c.triangles ? ", triangles" : "") << ", gap " << c.gap << ", depth limit " << c.depth_limit
                             << ", offset " << (c.initial == Initial::offset) << ", seed " << c.seed;
   });
@@ -25,6 +25,9 @@ test::TruthCount compare(int nodes, int steps) {
 
 TEST(Truth, is_what_an_interface_says) { (void)compare(16, 20); }
 
+// Each facet with a gap of its own, from its thickness.
+TEST(Truth, is_what_an_interface_with_automatic_gap_says) { (void)compare(12, 16, true); }
+
 // Who may not be the nearest of a held node, for it pushes the other way, may not store more for it either. On a torus whose facets turn
 // by 40 degrees in some steps 47 node-steps differed, and a facet that came nearer stopped to hold its node at once.
 TEST(Truth, only_those_store_more_that_may_be_the_nearest) {
@@ -37,6 +40,8 @@ TEST(Truth, only_those_store_more_that_may_be_the_nearest) {
 }
 
 TEST(TruthFull, is_what_an_interface_says_in_a_million_node_steps) { EXPECT_GE(compare(90, 100).node_steps, 1000000); }
+
+TEST(TruthFull, is_what_an_interface_with_automatic_gap_says) { EXPECT_GE(compare(60, 80, true).node_steps, 500000); }
 
 }  // namespace
 }  // namespace abut::contact
