@@ -49,6 +49,8 @@ class BoundaryConditions {
   };
   /// @param without  directions of the node's own card (bit k: direction k of 0..5) that count as released whether they are or not
   [[nodiscard]] Held held(Index node, bool rotation, unsigned without = 0) const;
+  /// What is held of this node is the same at all times, unless an interface lifts it: one card, no skew.
+  [[nodiscard]] bool is_plain(Index node) const { return plain_entry(node) != no_index; }
 
   /// Step 25: exact discrete work of both applications (negative: kinetic energy taken).
   double ledger_work(const state::State& state) { return meter_.settle(state); }

@@ -34,8 +34,8 @@ RigidBodies::RigidBodies(const model::Model& model, const Profile& profile)
       conserving_(profile.rigid_body == Profile::RigidBody::conserving),
       bodies_(model.rigid_bodies.size()),
       sums_(model.rigid_bodies.size()),
-      body_of_(at(model.node_count()), no_index),
-      main_of_(at(model.node_count()), no_index),
+      body_of_(model.rigid_bodies.empty() ? 0 : at(model.node_count()), no_index),
+      main_of_(model.rigid_bodies.empty() ? 0 : at(model.node_count()), no_index),
       bound_(model.rigid_bodies.size(), false) {
   std::vector<bool> bound(at(model.node_count()), false);
   for (const model::RigidWall& card : model.rigid_walls) {
@@ -71,7 +71,7 @@ void RigidBodies::initialise(state::State& state) {
 bool RigidBodies::contains(std::span<const Index> nodes) const {
   Index body = no_index;
   for (const Index node : nodes) {
-    const Index mine = body_of_[at(node)] != no_index ? body_of_[at(node)] : main_of_[at(node)];
+    const Index mine = body_of(node) != no_index ? body_of(node) : main_of(node);
     if (mine == no_index || (body != no_index && mine != body)) return false;
     body = mine;
   }

@@ -47,9 +47,9 @@ class RigidBodies {
   void initialise(state::State& state);
 
   /// Body (index in the model) of which the node is a secondary node of an active body; no_index: none.
-  [[nodiscard]] Index body_of(Index node) const { return body_of_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] Index body_of(Index node) const { return body_of_.empty() ? no_index : body_of_[static_cast<std::size_t>(node)]; }
   /// Body of which the node is the main node, of an active body; no_index: none.
-  [[nodiscard]] Index main_of(Index node) const { return main_of_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] Index main_of(Index node) const { return main_of_.empty() ? no_index : main_of_[static_cast<std::size_t>(node)]; }
   /// True when all nodes belong to one active body (main node included): the element is switched off.
   [[nodiscard]] bool contains(std::span<const Index> nodes) const;
   /// Changes whenever a body is switched on or off: the cycle then asks contains() again.
@@ -219,8 +219,8 @@ class RigidBodies {
   bool conserving_;
   std::vector<Body> bodies_;
   std::vector<BodySums> sums_;
-  std::vector<Index> body_of_, main_of_;
-  std::vector<bool> bound_;  ///< per body: the main node has a moving wall
+  std::vector<Index> body_of_, main_of_;  // #N; empty: the model has no bodies
+  std::vector<bool> bound_;               ///< per body: the main node has a moving wall
   double hold_second_half_ = 0.0;
   int revision_ = 0;
 };

@@ -38,7 +38,7 @@ Sections::Sections(const model::Model& model, std::span<const std::unique_ptr<el
       for (Index e = 0; e < group->size(); ++e) {
         const Index element = group->elements()[static_cast<std::size_t>(e)];
         if (!std::binary_search(wanted.begin(), wanted.end(), element)) continue;
-        const std::span<const Index> nodes = group->nodes(e);
+        const elements::ElementNodes nodes = group->nodes(e);
         for (int k = 0; k < static_cast<int>(nodes.size()); ++k) {
           const Index node = nodes[static_cast<std::size_t>(k)];
           if (in_section[static_cast<std::size_t>(node)] == 0) continue;

@@ -1,6 +1,7 @@
 #include "cycle/contact_mobility.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace abut::cycle {
 
@@ -42,20 +43,27 @@ ContactMobility::ContactMobility(const model::Model& model, std::span<const init
     of_body[at(body.main)] = 1;
     for (const Index node : body.nodes) of_body[at(node)] = 1;
   }
-  for (const Index node : conditions.nodes()) {
-    if (touches[at(node)] != 0) bind(node);
-  }
   for (const model::ImposedMotion& motion : model.imposed_motions) {
     for (const Index node : motion.nodes) {
       if (touches[at(node)] != 0) bind(node);
     }
   }
+  for (const Index node : conditions.nodes()) {
+    if (touches[at(node)] == 0) continue;
+    if (bound_[at(node)] < 0 && of_body[at(node)] == 0 && lifted[at(node)] == 0 && conditions.is_plain(node)) {
+      steady_nodes_.push_back(node);
+    } else {
+      bind(node);
+    }
+  }
   for (Index node = 0; node < model.node_count(); ++node) {
     if (touches[at(node)] != 0 && (of_body[at(node)] != 0 || bound_[at(node)] >= 0)) nodes_.push_back(node);
   }
-  if (nodes_.empty()) return;
+  if (nodes_.empty()) bound_ = std::vector<std::int32_t>();
+  if (nodes_.empty() && steady_nodes_.empty()) return;
   entry_.assign(n, no_index);
-  mobility_.resize(nodes_.size());
+  mobility_.resize(nodes_.size() + steady_nodes_.size());
+  steady_mass_.assign(steady_nodes_.size(), std::numeric_limits<double>::quiet_NaN());
   held_.resize(bound_nodes_.size());
   held_rotation_.resize(bound_nodes_.size());
   answer_.resize(model.rigid_bodies.size());
@@ -65,6 +73,7 @@ ContactMobility::ContactMobility(const model::Model& model, std::span<const init
 void ContactMobility::update(const state::State& state, const constraints::BoundaryConditions& conditions,
                              const constraints::ImposedMotions& imposed, const constraints::RigidBodies& bodies,
                              std::span<const double> stiffness) {
+  update_steady(state, conditions);
   if (nodes_.empty()) return;
   for (std::size_t k = 0; k < bound_nodes_.size(); ++k) {
     const Index node = bound_nodes_[k];
@@ -76,6 +85,18 @@ void ContactMobility::update(const state::State& state, const constraints::Bound
     if (k >= 0) (rotation ? held_rotation_ : held_)[static_cast<std::size_t>(k)].add(axis);
   });
   update_bodies(state, bodies, stiffness);
+}
+
+void ContactMobility::update_steady(const state::State& state, const constraints::BoundaryConditions& conditions) {
+  for (std::size_t i = 0; i < steady_nodes_.size(); ++i) {
+    const Index node = steady_nodes_[i];
+    const double mass = state.mass[at(node)];
+    if (mass == steady_mass_[i]) continue;
+    steady_mass_[i] = mass;
+    const Held held = conditions.held(node, false);
+    entry_[at(node)] = held.count == 0 ? no_index : static_cast<Index>(nodes_.size() + i);
+    mobility_[nodes_.size() + i] = held.mobility(mass);
+  }
 }
 
 void ContactMobility::update_bodies(const state::State& state, const constraints::RigidBodies& bodies, std::span<const double> stiffness) {

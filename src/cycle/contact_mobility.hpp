@@ -40,12 +40,15 @@ class ContactMobility {
  private:
   using Held = constraints::BoundaryConditions::Held;
   void update_bodies(const state::State& state, const constraints::RigidBodies& bodies, std::span<const double> stiffness);
+  void update_steady(const state::State& state, const constraints::BoundaryConditions& conditions);
 
   const model::Model* model_ = nullptr;
   std::vector<Index> entry_;                 ///< #N
   std::vector<Index> nodes_;                 ///< nodes of interfaces that may be held or belong to a body
-  std::vector<contact::Mobility> mobility_;  ///< as nodes_
-  std::vector<Index> bound_nodes_;           ///< nodes with conditions or imposed motions, main nodes
+  std::vector<Index> steady_nodes_;          ///< those of interfaces that are always held alike
+  std::vector<double> steady_mass_;          ///< as steady_nodes_: what their mobility was made with
+  std::vector<contact::Mobility> mobility_;  ///< as nodes_, then steady_nodes_
+  std::vector<Index> bound_nodes_;           ///< nodes with conditions or imposed motions that are not steady, main nodes
   std::vector<std::int32_t> bound_;          ///< #N: place in bound_nodes_, or -1
   std::vector<Held> held_, held_rotation_;   ///< as bound_nodes_
   std::vector<std::uint8_t> lifted_;         ///< as bound_nodes_: bits as of BoundaryConditions

@@ -163,6 +163,7 @@ void Cycle::contact_forces(StepLimits& limits) {
 
 void Cycle::assemble() {
   const Timer timer(*this, p_assembly);
+  static_assert(elements::Assembly::Entries::padding >= AssembleArgs::ahead);
   const auto entries = [](const elements::Assembly::Entries& e) { return e.at.empty() ? nullptr : e.first.data(); };
   const auto vectors = [](state::ZeroArray<Vec3>& a, bool wanted) { return wanted ? &a.data()->x : nullptr; };
   const bool contact = !interfaces_.empty();

@@ -27,6 +27,7 @@
 #include "elements/assembly.hpp"
 #include "init/contact_setup.hpp"
 #include "init/start.hpp"
+#include "simd/aligned.hpp"
 
 namespace abut::cycle {
 
@@ -94,8 +95,8 @@ class Cycle {
   std::vector<std::unique_ptr<elements::Group>> groups_;
   elements::Assembly assembly_;
   state::State state_;
-  std::vector<double> sums_;   // of chunks of elements
-  std::vector<double> slots_;  // of elements, when a section asks for them
+  simd::AlignedVector<double> sums_;  // of chunks of elements
+  std::vector<double> slots_;         // of elements, when a section asks for them
 
   constraints::Curves curves_;
   constraints::Axes axes_;

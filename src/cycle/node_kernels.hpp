@@ -12,6 +12,7 @@ namespace abut::cycle {
 
 /// Chunk sums of every node (elements/assembly.hpp) -> forces, accelerations, stiffness (numerics.md 1.2 steps 10 and 16).
 struct AssembleArgs {
+  static constexpr std::uint32_t ahead = 24;  ///< entries behind the end of shell_at and solid_at that may be looked at
   const double* sums = nullptr;
   const std::uint32_t *shell_first = nullptr, *shell_at = nullptr;  ///< #N + 1 and where each node's sums begin; null: no such elements
   const std::uint32_t *solid_first = nullptr, *solid_at = nullptr;

@@ -22,6 +22,11 @@ ABUT_INLINE void add_entries(const double* sums, const std::uint32_t* at, std::u
   for (std::uint32_t j = begin; j < end; ++j) total += simd::load<4>(sums + at[j]);
 }
 
+/// Asks for entries that later nodes add up: they lie in the sums of many chunks.
+ABUT_INLINE void ask_for_entries(const double* sums, const std::uint32_t* at, std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t j = begin; j < end; ++j) __builtin_prefetch(sums + at[j + AssembleArgs::ahead], 0, 3);
+}
+
 /// Twelve doubles: the vectors of four nodes.
 struct Twelve {
   Four p[3];
@@ -133,10 +138,15 @@ void assemble_nodes(const AssembleArgs& args, std::size_t begin, std::size_t end
     Four force = zero, moment = zero;  // and the stiffness in the last place
     if (args.shell_first != nullptr) {
       const std::uint32_t first = args.shell_first[i], last = args.shell_first[i + 1];
+      ask_for_entries(args.sums, args.shell_at, first, last);
       add_entries(args.sums, args.shell_at, first, last, force);
       add_entries(args.sums + 4, args.shell_at, first, last, moment);
     }
-    if (args.solid_first != nullptr) add_entries(args.sums, args.solid_at, args.solid_first[i], args.solid_first[i + 1], force);
+    if (args.solid_first != nullptr) {
+      const std::uint32_t first = args.solid_first[i], last = args.solid_first[i + 1];
+      ask_for_entries(args.sums, args.solid_at, first, last);
+      add_entries(args.sums, args.solid_at, first, last, force);
+    }
     const double mass = args.mass[i];
     Four f = (args.f_external != nullptr ? load3(args.f_external + 3 * i) : zero) - force;
     double stiffness = force.r[3];

@@ -47,6 +47,9 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   if (!options.profile.reference_contact) contact_mobility_ = ContactMobility(model, interfaces_, boundary_);
   // The reference program keeps the stiffness of the start.
   if (!options.profile.reference_contact) contact_thickness_ = ContactThickness(model, groups_, interfaces_);
+  for (init::RunInterface& i : interfaces_) {
+    for (init::RunInterface::Side& side : i.sides) std::vector<model::ElementRef>().swap(side.shell);  // nobody else asks for them
+  }
   if (options.interfaces) contact_facing_ = ContactFacing(model);
 
   std::vector<std::uint8_t> free_translation(n, 1);
@@ -81,7 +84,10 @@ void Cycle::switch_off_rigid_elements() {
   bodies_revision_ = bodies_.revision();
   for (const std::unique_ptr<elements::Group>& g : groups_) {
     std::vector<std::uint8_t> rigid(static_cast<std::size_t>(g->size()), 0);
-    for (Index e = 0; e < g->size(); ++e) rigid[static_cast<std::size_t>(e)] = bodies_.contains(g->nodes(e)) ? 1 : 0;
+    for (Index e = 0; e < g->size(); ++e) {
+      const elements::ElementNodes nodes = g->nodes(e);
+      rigid[static_cast<std::size_t>(e)] = bodies_.contains(nodes) ? 1 : 0;
+    }
     g->set_rigid(rigid);
   }
 }

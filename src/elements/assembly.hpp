@@ -31,8 +31,9 @@ class Assembly {
 
   /// For every node where its sums begin: those of shells (8 components) or of solids (4).
   struct Entries {
+    static constexpr std::uint32_t padding = 24;
     std::vector<std::uint32_t> first;  ///< #N + 1
-    std::vector<std::uint32_t> at;     ///< component 0 of the entry
+    std::vector<std::uint32_t> at;     ///< component 0 of the entry; `padding` more at the end
   };
   [[nodiscard]] const Entries& shells() const { return shells_; }
   [[nodiscard]] const Entries& solids() const { return solids_; }

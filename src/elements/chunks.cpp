@@ -44,4 +44,10 @@ std::span<const Index> ChunkTable::nodes(std::size_t chunk) const {
   return std::span<const Index>(node_).subspan(first_[chunk], first_[chunk + 1] - first_[chunk]);
 }
 
+NodesAhead ChunkTable::ahead_of(std::size_t chunk) const {
+  if (chunk + 1 >= static_cast<std::size_t>(size())) return {};
+  const std::span<const Index> next = nodes(chunk + 1);
+  return {next.data(), next.size()};
+}
+
 }  // namespace abut::elements

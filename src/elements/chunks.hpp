@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/types.hpp"
+#include "elements/nodes_ahead.hpp"
 
 namespace abut::elements {
 
@@ -32,6 +33,8 @@ class ChunkTable {
   /// Nodes of a chunk, ascending.
   [[nodiscard]] std::span<const Index> nodes(std::size_t chunk) const;
 
+  /// Those of the chunk after this one.
+  [[nodiscard]] NodesAhead ahead_of(std::size_t chunk) const;
   /// Nodes of all chunks, one after the other.
   [[nodiscard]] std::span<const Index> nodes() const { return node_; }
   /// Place in nodes() of a corner of an element.

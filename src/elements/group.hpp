@@ -4,6 +4,7 @@
 // are private to an element and sums to a chunk, so chunks run in parallel; `Assembly` adds the chunks of a node in their order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -102,6 +103,24 @@ struct SlotLayout {
   }
 };
 
+/// Nodes of an element, by value: groups keep them as their kernels want them.
+class ElementNodes {
+ public:
+  ElementNodes() = default;
+  ElementNodes(std::span<const Index> nodes) : size_(nodes.size()) { std::copy(nodes.begin(), nodes.end(), node_.begin()); }  // NOLINT
+  void push_back(Index node) { node_[size_++] = node; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Index* begin() const { return node_.data(); }
+  [[nodiscard]] const Index* end() const { return node_.data() + size_; }
+  [[nodiscard]] Index operator[](std::size_t k) const { return node_[k]; }
+  operator std::span<const Index>() const& { return {node_.data(), size_}; }  // NOLINT: as good as the nodes
+  operator std::span<const Index>() const&& = delete;                         // NOLINT: they end with the statement
+
+ private:
+  std::array<Index, 8> node_{};
+  std::size_t size_ = 0;
+};
+
 class Group {
  public:
   virtual ~Group() = default;
@@ -113,7 +132,7 @@ class Group {
   /// Group-local element -> index in the model's table of that kind.
   [[nodiscard]] std::span<const Index> elements() const { return elements_; }
   /// Nodes of a group-local element (nodes_per_element of them; degenerate bricks repeat).
-  [[nodiscard]] virtual std::span<const Index> nodes(Index element) const = 0;
+  [[nodiscard]] virtual ElementNodes nodes(Index element) const = 0;
   [[nodiscard]] virtual model::ElementKind kind() const = 0;
 
   [[nodiscard]] const SlotLayout& layout() const { return layout_; }

@@ -20,9 +20,9 @@ class InertGroup final : public Group {
 
   [[nodiscard]] Family family() const override { return Family::inert; }
   [[nodiscard]] model::ElementKind kind() const override { return data_.kind; }
-  [[nodiscard]] std::span<const Index> nodes(Index element) const override {
+  [[nodiscard]] ElementNodes nodes(Index element) const override {
     const auto n = static_cast<std::size_t>(data_.nodes_per_element);
-    return {data_.nodes.data() + static_cast<std::size_t>(element) * n, n};
+    return std::span(data_.nodes).subspan(static_cast<std::size_t>(element) * n, n);
   }
   void add_masses(std::span<double> mass, std::span<double> inertia) const override {
     for (std::size_t i = 0; i < data_.nodes.size(); ++i) {

@@ -80,7 +80,8 @@ double shell_rate(std::span<const Index> nodes, double t, std::span<const Vec3> 
 
 double equivalent_strain_rate(const Group& group, Index element, std::span<const Vec3> x, std::span<const Vec3> v,
                               std::span<const Vec3> w) {
-  const std::span<const Index> nodes = group.nodes(element);
+  const ElementNodes own = group.nodes(element);
+  const std::span<const Index> nodes = own;
   const model::ElementKind kind = group.kind();
   if (kind == model::ElementKind::shell4 || kind == model::ElementKind::shell3) {
     // A quadrilateral with nodes 3 = 4 is a triangle.

@@ -258,10 +258,11 @@ void Animation::cycle(const cycle::Snapshot& now) {
   grid->take(now);
   times_.push_back(now.state->times.t);
   writer_ = std::async(std::launch::async, [this, with_surfaces, taken = std::move(grid), times = times_]() mutable {
-              const std::unique_ptr<Grid> grid = std::move(taken);  // gone when it is written, not when the next state is asked for
-              if (with_surfaces != nullptr) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*with_surfaces));
+              std::unique_ptr<Grid> grid = std::move(taken);
               write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid->encoded());
+              grid.reset();  // as large as the contact surfaces: never both at a time
               write_index(times);
+              if (with_surfaces != nullptr) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*with_surfaces));
             }).share();
 }
 

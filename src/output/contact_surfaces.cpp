@@ -30,9 +30,12 @@ std::string contact_surfaces_vtu(const model::Model& model) {
   points->SetDataTypeToDouble();
   vtkNew<vtkIdTypeArray> node_id;
   node_id->SetName("node_id");
+  points->SetNumberOfPoints(model.node_count());
+  node_id->SetNumberOfValues(model.node_count());
   for (std::size_t n = 0; n < model.node_x.size(); ++n) {
-    points->InsertNextPoint(model.node_x[n].x, model.node_x[n].y, model.node_x[n].z);
-    node_id->InsertNextValue(model.node_id[n]);
+    const auto i = static_cast<vtkIdType>(n);
+    points->SetPoint(i, model.node_x[n].x, model.node_x[n].y, model.node_x[n].z);
+    node_id->SetValue(i, model.node_id[n]);
   }
   std::array<vtkNew<vtkIdTypeArray>, 3> about;
   constexpr std::array<const char*, 3> names{"interface_id", "surface_id", "side"};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -43,11 +44,6 @@ void describe_parts(Model::Impl& m) {
     if (p.property != no_index) info.property_id = model.properties[static_cast<std::size_t>(p.property)].id;
     if (p.material != no_index) info.material_id = model.materials[static_cast<std::size_t>(p.material)].id;
     m.parts.push_back(std::move(info));
-  }
-  for (const model::Surface& s : model.surfaces) {
-    SurfaceInfo info{s.id, s.title, {}};
-    for (const model::Segment& segment : s.segments) info.facets.push_back(segment.nodes);
-    m.surfaces.push_back(std::move(info));
   }
   for (const model::Interface& i : model.interfaces) {
     InterfaceInfo info;
@@ -153,7 +149,24 @@ std::uint64_t Model::fingerprint() const { return impl_->fingerprint; }
 std::span<const Id> Model::node_ids() const { return impl_->model.node_id; }
 std::span<const Vec3> Model::coordinates() const { return impl_->model.node_x; }
 std::span<const PartInfo> Model::parts() const { return impl_->parts; }
-std::span<const SurfaceInfo> Model::surfaces() const { return impl_->surfaces; }
+std::span<const SurfaceInfo> Model::surfaces() const { return impl_->surfaces(); }
+
+const std::vector<SurfaceInfo>& Model::Impl::surfaces() const {
+  static std::mutex making;
+  const std::lock_guard lock(making);
+  if (surfaces_ == nullptr) {
+    std::vector<SurfaceInfo> all;
+    for (const model::Surface& s : model.surfaces) {
+      SurfaceInfo info{s.id, s.title, {}};
+      info.facets.reserve(s.segments.size());
+      for (const model::Segment& segment : s.segments) info.facets.push_back(segment.nodes);
+      all.push_back(std::move(info));
+    }
+    surfaces_ = std::make_shared<const std::vector<SurfaceInfo>>(std::move(all));
+  }
+  return *surfaces_;
+}
+
 std::span<const InterfaceInfo> Model::interfaces() const { return impl_->interfaces; }
 std::size_t Model::element_count() const { return static_cast<std::size_t>(output::element_count(impl_->model)); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,9 +26,13 @@ struct Model::Impl {
   std::uint64_t fingerprint = 0;
   std::vector<std::uint64_t> engine_fingerprint;  ///< of Engine decks 1 to n, for n = 1, 2, ...
   std::vector<PartInfo> parts;
-  std::vector<SurfaceInfo> surfaces;
+  /// Of model.surfaces, made when they are first asked for: a run has no use for them.
+  [[nodiscard]] const std::vector<SurfaceInfo>& surfaces() const;
   std::vector<InterfaceInfo> interfaces;
   double read_seconds = 0.0;
+
+ private:
+  mutable std::shared_ptr<const std::vector<SurfaceInfo>> surfaces_;
 };
 
 namespace run {

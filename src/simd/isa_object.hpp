@@ -14,4 +14,4 @@ using Real = double;
 #else
 using Real = Pack<ABUT_ISA_WIDTH>;
 #endif
-}
+}  // namespace abut::simd::ABUT_ISA

@@ -2,26 +2,41 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <new>
 #include <utility>
 #include <vector>
 
+#include "simd/aligned.hpp"
+
 namespace abut::state {
 
-/// Allocates zeroed memory, of which the system gives pages at the first write only; a default-constructed T must be all zeros.
+/// Allocates zeroed memory that begins on a line of the caches, of which the system gives pages at the first write only; a
+/// default-constructed T must be all zeros.
 template <class T>
 struct ZeroAllocator {
   using value_type = T;
+  static constexpr std::size_t line = simd::cache_line;
   ZeroAllocator() = default;
   template <class U>
   ZeroAllocator(const ZeroAllocator<U>&) {}  // NOLINT: allocators convert
   [[nodiscard]] T* allocate(std::size_t n) {
-    void* p = std::calloc(n, sizeof(T));
+    if (n > (std::numeric_limits<std::size_t>::max() - line) / sizeof(T)) throw std::bad_alloc();
+    auto* p = static_cast<std::byte*>(std::calloc(n * sizeof(T) + line, 1));
     if (p == nullptr) throw std::bad_alloc();
-    return static_cast<T*>(p);
+    // Where the memory begins stands before the array: calloc's addresses leave room for a pointer below the next line of the cache.
+    std::byte* array = p + (line - reinterpret_cast<std::uintptr_t>(p) % line);
+    std::memcpy(array - sizeof(p), &p, sizeof(p));
+    return reinterpret_cast<T*>(array);
   }
-  void deallocate(T* p, std::size_t) noexcept { std::free(p); }
+  void deallocate(T* array, std::size_t) noexcept {
+    void* p = nullptr;
+    std::memcpy(&p, reinterpret_cast<std::byte*>(array) - sizeof(p), sizeof(p));
+    std::free(p);
+  }
   bool operator==(const ZeroAllocator&) const { return true; }
 
   template <class U>

@@ -252,8 +252,10 @@ def test_finish_closes_the_files(tmp_path):
 def test_other_threads_go_on_meanwhile():
     run = run_of(end=1e3)
     counted, refused = 0, None
-    worker = threading.Thread(target=run.advance_to_end)
+    cycled = threading.Event()
+    worker = threading.Thread(target=run.advance_to_end, args=(lambda r: cycled.set() or True,), kwargs={"every": 20})
     worker.start()
+    assert cycled.wait(60)
     deadline = time.monotonic() + 60
     while counted < 1000 and time.monotonic() < deadline:
         counted += 1
@@ -289,11 +291,15 @@ sys.path.insert(0, {folder!r})
 import abut
 from support import two_blocks
 run = abut.Run(two_blocks(end=1e3).build(), output={output!r}, threads=1)
+run.advance()
 calls = 0
 def callback(r):
     global calls
     calls += 1
-print("going", flush=True)
+    if calls == 1:
+        print("going", flush=True)
+if not {with_callback}:
+    print("going", flush=True)
 try:
     run.advance_to_end(callback if {with_callback} else None)
 except KeyboardInterrupt:

@@ -46,7 +46,10 @@ class Forces {
     interfaces_ = abut::init::make_interfaces(m, {}, {}, state);
     for (const auto& g : groups_) {
       std::vector<std::uint8_t> rigid;
-      for (Index e = 0; e < g->size(); ++e) rigid.push_back(bodies.contains(g->nodes(e)) ? 1 : 0);
+      for (Index e = 0; e < g->size(); ++e) {
+        const auto nodes = g->nodes(e);
+        rigid.push_back(bodies.contains(nodes) ? 1 : 0);
+      }
       g->set_rigid(rigid);
     }
     // One step at rest: the first step of a run has no strain and no history.

@@ -35,9 +35,15 @@ struct Interface::Made {
     check(host.mass.size(), "mass", true);
     check(host.constrained.size(), "constrained", true);
     if (host.constrained.empty()) return;
+    const auto names_one = [&host](Index entry) {
+      return entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size());
+    };
+    bool all = true;
+    for (const Index n : recipe.hosted) all &= names_one(host.constrained[static_cast<std::size_t>(n)]);
+    if (all) return;
     for (const Index n : recipe.hosted) {
       const Index entry = host.constrained[static_cast<std::size_t>(n)];
-      if (entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size())) continue;
+      if (names_one(entry)) continue;
       throw std::invalid_argument("contact: constrained names entry " + std::to_string(entry) + " of " +
                                   std::to_string(host.mobility.size()));
     }

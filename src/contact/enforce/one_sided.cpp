@@ -239,15 +239,14 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
     loads.work_parts.resize(pieces(loads.loaded.size()));
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
       double work = 0.0;
-      for (std::size_t s = begin; s < end; ++s) {
-        if (loads.loaded[s] == 0) continue;
+      loads.for_loaded(begin, end, [&](std::size_t s) {
         const SideLoads::Node& load = loads.node(s);
         const Vec3 f = load.total();
         work += dot(0.5 * (load.force_before + f), side_[k].x()[s] - loads.x_before[s]);
         const std::size_t node = at(side_[k].nodes()[s]);
         force[node] += f;
         stiffness[node] += load.own_stiffness + load.reaction_stiffness;
-      }
+      });
       loads.work_parts[begin / piece] = work;
     });
     loads.work_step = 0.0;
@@ -297,11 +296,10 @@ void OneSided::commit(double) {
     loads.work += loads.work_step;
     loads.work_step = 0.0;
     over_pieces(k, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s) {
-        if (loads.loaded[s] == 0) continue;
+      loads.for_loaded(begin, end, [&loads](std::size_t s) {
         loads.node(s).force_before = loads.node(s).total();
         loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
-      }
+      });
     });
   }
   stepped_ = true;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 
 #include "contact/project/plain.hpp"
 
@@ -142,10 +143,15 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
 bool Pass::asleep(const Scene& scene, Index i) {
   const std::uint8_t quiet = quiet_[at(i)];
   if (quiet == awake || scene.host.dt <= 0.0) return false;
+  // The largest motion of its block is at hand; its own has to be fetched.
+  const double motion = scene.held_loads.squared_motion[at(i) / SideLoads::block];
+  const double due = candidates_.nearest_due(i);
   if (quiet == beyond_reach) {
-    return stays_beyond(squared_motion(scene.host, scene.held, scene.held_loads, i), candidates_.nearest_due(i));
+    if (stays_beyond(motion, due)) return true;
+    return stays_beyond(squared_motion(scene.host, scene.held, scene.held_loads, i), due);
   }
   if (quiet == nothing_listed && !candidates_.of(i).empty()) return false;
+  if (clears(motion, due)) return true;
   return far(scene.host, scene.held, scene.surface, scene.held_loads, i);
 }
 
@@ -302,9 +308,10 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
   std::size_t added = 0;
   const auto evaluate_groups = [this, &scene, &added](std::size_t begin, std::size_t end) {
     if (begin == end) return;  // an executor may hand out empty ranges: they are nobody's first
-    Work work;
+    // Large, and nothing in it is kept: made once per thread.
+    thread_local const auto work = std::make_unique<Work>();
     for (std::size_t g = begin; g < end; ++g) {
-      evaluate_group(scene, g, work, groups_[g]);
+      evaluate_group(scene, g, *work, groups_[g]);
       // Reactions are added in the order of the groups: whoever has the first of them adds while they are in its cache.
       if (begin == 0) add_reactions(groups_[g], scene.surface, scene.surface_loads);
     }

@@ -282,7 +282,7 @@ class Pass {
   void run_batch(const Scene& scene, HeldBatch& batch) const;
   void add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const;
   /// No other facet can be as near as the one that holds the node, nor store more.
-  [[nodiscard]] bool alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) const;
+  [[nodiscard]] bool alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
   void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
   void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                    GroupSums& sums);

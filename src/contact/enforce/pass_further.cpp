@@ -33,10 +33,13 @@ void Pass::each_beside(const Side& surface, Index i, const Vec3& x, const Measur
     return its.distance >= 0.0 &&
            signed_measure(surface, by.facet, closest_point(extended(surface, by.facet, strip), x), x).distance >= 0.0;
   };
+  const double within = (1.0 + equally_near) * distance + beyond;
   for (const Candidates::Entry& entry : candidates_.of(i)) {
     const Index f = entry.facet;
-    if (entry.due - candidates_.clock() > (1.0 + equally_near) * distance + beyond || f == m.facet || !surface.active(f)) continue;
-    const ClosestPoint other = closest_point(extended(surface, f, strip), x);
+    if (entry.due - candidates_.clock() > within || f == m.facet || !surface.active(f)) continue;
+    const Patch patch = extended(surface, f, strip);
+    if (distance_at_least(patch, x) > within) continue;
+    const ClosestPoint other = closest_point(patch, x);
     const double away = std::sqrt(other.squared_distance);
     const bool as_near = std::abs(away - distance) <= equal;
     if (!as_near && !(away > distance && away - distance < beyond && away <= reach)) continue;

@@ -119,17 +119,20 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
   held_kernel()(held_rules(scene.host), batch);
 }
 
-bool Pass::alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) const {
-  const Candidates::Others& others = candidates_.others(i);
+bool Pass::alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {
+  const Candidates::Others others = candidates_.others(i);
   const NodeState& before = states_.before(i);
-  if (others.facet != before.facet || (before.held == 2 && !others.wide)) return false;
   // Beyond what counts as equally near or can store more, with room for the rounding of the clock.
   const double further = scene.surface.evenly_stiff()
                              ? 0.0
                              : reach_of_stronger(batch.stiffness[lane], strongest(scene.held, scene.surface, i), batch.penetration[lane]);
-  const double reach = (others.due - candidates_.clock()) * (1.0 - 2.0 * equally_near) - (1.0 + 1e-6) * further;
-  if (outgrows(i, std::sqrt(batch.squared_distance[lane]) + further)) sums.outgrown = true;
-  return reach > 0.0 && reach * reach > batch.squared_distance[lane];
+  const double distance = std::sqrt(batch.squared_distance[lane]);
+  const double within = (1.0 + 3.0 * equally_near) * (distance + (1.0 + 1e-6) * further);
+  if (outgrows(i, distance + further)) sums.outgrown = true;
+  const bool wide = before.held == 2;
+  if (others.facet == before.facet && (others.wide || !wide) && others.due - candidates_.clock() > within) return true;
+  const HeldBy by{before.facet, before.normal, wide ? border_strip + border_widening : border_strip};
+  return none_within(scene.surface, candidates_, i, scene.held.x()[at(i)], by, within);
 }
 
 void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {

@@ -30,25 +30,17 @@ double Pass::squared_motion(const HostState& host, const Side& held, const SideL
 bool Pass::far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i) {
   const double motion = squared_motion(host, held, held_loads, i);
   if (clears(motion, candidates_.nearest_due(i))) return true;
-  if (!clears(motion, 1e300)) return false;
-  // The clock counts the largest motion of all nodes: look how far the planes of the facets are that it says may be near.
+  if (!clears(motion, 1e300) || stale_) return false;
+  // The clock counts the largest motion of all nodes: look how far the planes of the facets are. All of them, for they serve for a while.
   const Vec3 x = held.x()[at(i)];
   double due = 1e300;
   for (Candidates::Entry& entry : candidates_.of(i)) {
-    if (!surface.active(entry.facet)) continue;
-    const bool border = surface.borders(entry.facet) != 0;
-    const bool clear = clears(motion, entry.due);
-    if (border && !clear) return false;
-    if (border || !clear) {
-      const double by_plane = height_over(surface.patch(entry.facet), x) + candidates_.clock();
-      if (!clears(motion, by_plane)) return false;
-      if (border) {
-        due = std::min(due, by_plane);
-      } else {
-        entry.due = std::max(entry.due, by_plane);
-      }
-    }
-    due = std::min(due, entry.due);
+    const double by_plane = height_over(surface.patch(entry.facet), x) + candidates_.clock();
+    const double known = entry.due;
+    const double nearest = entry.border ? std::min(known, by_plane) : std::max(known, by_plane);
+    if (!entry.border) entry.due = nearest;
+    if (!clears(motion, nearest)) return false;
+    due = std::min(due, nearest);
   }
   candidates_.set_nearest_due(i, due);
   return true;

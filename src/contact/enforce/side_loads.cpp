@@ -10,21 +10,19 @@ void SideLoads::resize(std::size_t nodes) {
 }
 
 void SideLoads::clear(std::size_t begin, std::size_t end) {
-  for (std::size_t s = begin; s < end; ++s) {
-    if ((loaded[s] & now) == 0) continue;
+  for_loaded(begin, end, [this](std::size_t s) {
+    if ((loaded[s] & now) == 0) return;
     Node& one = node(s);
     const Vec3 force = one.force_before;
     one = {};
     one.force_before = force;
     loaded[s] &= before;
-  }
+  });
 }
 
 std::vector<Vec3> SideLoads::forces_before() const {
   std::vector<Vec3> force(loaded.size());
-  for (std::size_t s = 0; s < loaded.size(); ++s) {
-    if (loaded[s] != 0) force[s] = node(s).force_before;
-  }
+  for_loaded(0, loaded.size(), [&](std::size_t s) { force[s] = node(s).force_before; });
   return force;
 }
 

@@ -1,7 +1,9 @@
 // What the contacts of an interface do to the nodes of one side.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -45,6 +47,20 @@ struct SideLoads {
     if (pages_[s / page] == nullptr) pages_[s / page] = std::make_unique<Node[]>(page);
     loaded[s] |= now;
     return node(s);
+  }
+  /// Calls visit(s) for those of nodes begin to end - 1 that are loaded, in their order.
+  template <class Visit>
+  void for_loaded(std::size_t begin, std::size_t end, Visit&& visit) const {
+    std::uint64_t eight;
+    for (std::size_t s = begin; s < end;) {
+      const std::size_t next = std::min(s + sizeof eight, end);
+      eight = 1;
+      if (next - s == sizeof eight) std::memcpy(&eight, &loaded[s], sizeof eight);
+      if (eight == 0) s = next;
+      for (; s < next; ++s) {
+        if (loaded[s] != 0) visit(s);
+      }
+    }
   }
   /// #nodes
   [[nodiscard]] std::vector<Vec3> forces_before() const;

@@ -191,7 +191,12 @@ FacingWatch& FacingWatch::operator=(FacingWatch&&) noexcept = default;
 
 std::array<Facing, 2> FacingWatch::look(const InspectionInput& input) {
   if (known_ == nullptr) {
-    known_ = std::make_unique<Known>(Known{{Shape(input.side[0], input.x), Shape(input.side[1], input.x)}});
+    const auto shape = [&input](std::size_t k) {
+      Shape made(input.side[k], input.x);
+      made.forget_shared_edges();
+      return made;
+    };
+    known_ = std::make_unique<Known>(Known{{shape(0), shape(1)}});
   } else {
     for (std::size_t k = 0; k < 2; ++k) known_->shapes[k].move(input.side[k], input.x);
   }

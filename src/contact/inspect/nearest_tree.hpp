@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "contact/search/box_tree.hpp"
@@ -11,7 +12,7 @@ namespace abut::contact {
 
 class NearestTree {
  public:
-  void build(const std::vector<Bounds>& boxes) {
+  void build(std::span<const CoarseBounds> boxes) {
     items_.resize(boxes.size());
     std::iota(items_.begin(), items_.end(), 0);
     nodes_.clear();
@@ -20,10 +21,10 @@ class NearestTree {
   }
 
   /// The same items elsewhere.
-  void refit(const std::vector<Bounds>& boxes) {
+  void refit(std::span<const CoarseBounds> boxes) {
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children have higher numbers
       Node& node = nodes_[n];
-      node.bounds = {};
+      node.bounds = CoarseBounds();
       for (Index k = node.first; k < node.first + node.count; ++k)
         node.bounds.include(boxes[static_cast<std::size_t>(items_[static_cast<std::size_t>(k)])]);
       if (node.count > 0) continue;
@@ -41,24 +42,24 @@ class NearestTree {
   /// Visits items whose leaf meets the box until `visit(item)` says true. @return whether it did
   template <class Visit>
   bool any(const Bounds& box, Visit&& visit) const {
-    return !nodes_.empty() && any_below(0, box, visit);
+    return !nodes_.empty() && any_below(0, CoarseBounds(box), visit);
   }
 
  private:
   struct Node {
-    Bounds bounds;
+    CoarseBounds bounds;
     Index first = 0, second = 0, count = 0;  // leaf (count > 0): first item; else two children
   };
   std::vector<Node> nodes_;
   std::vector<Index> items_;
 
-  Index split(const std::vector<Bounds>& boxes, Index first, Index last) {
+  Index split(std::span<const CoarseBounds> boxes, Index first, Index last) {
     const auto number = static_cast<Index>(nodes_.size());
     nodes_.emplace_back();
     Node node;
     Bounds centres;
-    const auto centre = [&boxes](Index i) {
-      const Bounds& b = boxes[static_cast<std::size_t>(i)];
+    const auto centre = [boxes](Index i) {
+      const Bounds b = boxes[static_cast<std::size_t>(i)].bounds();
       return 0.5 * (b.low + b.high);
     };
     for (Index k = first; k < last; ++k) {
@@ -85,7 +86,7 @@ class NearestTree {
   }
 
   template <class Visit>
-  bool any_below(Index number, const Bounds& box, Visit& visit) const {
+  bool any_below(Index number, const CoarseBounds& box, Visit& visit) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (!node.bounds.meets(box)) return false;
     if (node.count == 0) return any_below(node.first, box, visit) || any_below(node.second, box, visit);
@@ -99,8 +100,8 @@ class NearestTree {
       for (Index k = node.first; k < node.first + node.count; ++k) visit(items_[static_cast<std::size_t>(k)], limit);
       return;
     }
-    const double d1 = squared_distance(nodes_[static_cast<std::size_t>(node.first)].bounds, from);
-    const double d2 = squared_distance(nodes_[static_cast<std::size_t>(node.second)].bounds, from);
+    const double d1 = squared_distance(nodes_[static_cast<std::size_t>(node.first)].bounds.bounds(), from);
+    const double d2 = squared_distance(nodes_[static_cast<std::size_t>(node.second)].bounds.bounds(), from);
     const bool first_nearer = d1 <= d2;
     if (std::min(d1, d2) <= limit) descend(first_nearer ? node.first : node.second, from, limit, visit);
     if (std::max(d1, d2) <= limit) descend(first_nearer ? node.second : node.first, from, limit, visit);

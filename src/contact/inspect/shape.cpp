@@ -102,12 +102,14 @@ void Shape::keep_connections() {
   release(centre_, normal_, area_, box_, shared_);
 }
 
+void Shape::forget_shared_edges() { std::vector<Shared>().swap(shared_); }
+
 void Shape::measure() {
   if (is_nodes()) {
     for (const Index n : nodes_) {
       const Vec3 p = x_[at(n)];
       centre_.push_back(p);
-      box_.push_back({p, p});
+      box_.emplace_back(Bounds{p, p});
       bounds_.include(p);
     }
     return;
@@ -120,15 +122,17 @@ void Shape::measure() {
   for (Index f = 0; f < static_cast<Index>(n); ++f) {
     const int corners = facet(f).corners();
     Vec3 sum;
+    Bounds box;
     for (int k = 0; k < corners; ++k) {
       sum += corner(f, k);
-      box_[at(f)].include(corner(f, k));
+      box.include(corner(f, k));
     }
+    box_[at(f)] = CoarseBounds(box);
     centre_[at(f)] = sum / static_cast<double>(corners);
     const Vec3 doubled = cross(corner(f, 2) - corner(f, 0), (corners == 3 ? corner(f, 2) : corner(f, 3)) - corner(f, 1));
     const double twice = norm(doubled);
     area_[at(f)] = 0.5 * twice;
-    const double extent = squared_norm(box_[at(f)].high - box_[at(f)].low);
+    const double extent = squared_norm(box.high - box.low);
     const bool good = distinct(facet(f)) && twice > 1e-10 * extent;  // thinner faces have a normal of rounding errors
     if (good) {
       normal_[at(f)] = doubled / twice;
@@ -136,7 +140,7 @@ void Shape::measure() {
       degenerate_.push_back(f);
     }
     mean_size_ += std::sqrt(area_[at(f)]);
-    bounds_.include(box_[at(f)]);
+    bounds_.include(box);
   }
   mean_size_ /= static_cast<double>(n);
 }
@@ -260,7 +264,7 @@ int Shape::outward(Index f) const {
 NearPoint Shape::nearest(const Vec3& from, double radius, Index except) const {
   NearPoint best;
   tree_.search(from, radius * radius, [&](Index i, double& limit) {
-    if (squared_distance(box_[at(i)], from) > limit) return;
+    if (squared_distance(box_[at(i)].bounds(), from) > limit) return;
     const auto take = [&](const Vec3& point) {
       const double squared = squared_norm(point - from);
       if (squared > limit || (squared == best.squared && i >= best.item)) return;
@@ -283,8 +287,9 @@ bool Shape::hides(const Vec3& a, const Vec3& b, Index except) const {
   Bounds query;
   query.include(a);
   query.include(b);
+  const CoarseBounds around(query);
   return tree_.any(query, [&](Index f) {
-    if (f == except || !box_[at(f)].meets(query)) return false;
+    if (f == except || !box_[at(f)].meets(around)) return false;
     return crosses(a, b - a, corner(f, 0), corner(f, 1), corner(f, 2)) ||
            (!facet(f).is_triangle() && crosses(a, b - a, corner(f, 0), corner(f, 2), corner(f, 3)));
   });

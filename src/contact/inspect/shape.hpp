@@ -27,6 +27,8 @@ class Shape {
   void move(const InspectedSide& side, std::span<const Vec3> x);
   /// Frees all that move() makes anew, and shared_edges().
   void keep_connections();
+  /// Frees shared_edges(): a look at facing normals does not ask for them.
+  void forget_shared_edges();
 
   [[nodiscard]] bool is_nodes() const { return side_.facets.empty(); }
   [[nodiscard]] Index count() const { return static_cast<Index>(box_.size()); }  ///< facets, or nodes of a node set
@@ -77,7 +79,7 @@ class Shape {
   std::span<const Vec3> x_;
   std::vector<Vec3> centre_, normal_;
   std::vector<double> area_;
-  std::vector<Bounds> box_;
+  std::vector<CoarseBounds> box_;
   std::vector<Index> nodes_, degenerate_, duplicates_, at_junctions_;
   std::vector<Shared> shared_;
   std::vector<Index> piece_;

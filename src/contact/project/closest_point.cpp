@@ -261,6 +261,28 @@ ClosestPoint closest_point(const Patch& patch, const Vec3& x) {
   return patch.triangle ? closest_on_triangle(patch, x) : closest_on_quad(patch, x);
 }
 
+double distance_at_least(const Patch& patch, const Vec3& x) {
+  if (patch.triangle) return 0.0;
+  const Bilinear q(patch, x);
+  const Box box = domain(patch);
+  // A point of the facet that is the closest one where sides are parallel; any other gives a bound too.
+  const double a11 = squared_norm(q.a), a22 = squared_norm(q.b), a12 = dot(q.a, q.b), gs = dot(q.c, q.a), gt = dot(q.c, q.b);
+  const double det = a11 * a22 - a12 * a12;
+  if (!(det > 1e-4 * a11 * a22)) return 0.0;
+  const double free = std::clamp((a12 * gt - a22 * gs) / det, box.low_s, box.high_s);
+  const double t = std::clamp(-(gt + a12 * free) / a22, box.low_t, box.high_t);
+  const double s = std::clamp(-(gs + a12 * t) / a11, box.low_s, box.high_s);
+  // The facet lies in the hull of its corners (with strips: of theirs), and the hull beyond a plane across the way to that point.
+  const Vec3 way = q.at(s, t);
+  const double length = norm(way);
+  const double c = dot(way, q.c), a = dot(way, q.a), b = dot(way, q.b), g = dot(way, q.g);
+  const auto corner = [&](double u, double v) { return c + u * a + v * b + (u * v) * g; };
+  const double nearest = std::min(std::min(corner(box.low_s, box.low_t), corner(box.high_s, box.low_t)),
+                                  std::min(corner(box.low_s, box.high_t), corner(box.high_s, box.high_t)));
+  constexpr double rounding = 1e-14;  // of the lengths that it is made from
+  return length > 0.0 ? std::max(0.0, nearest / length - rounding * (std::sqrt(a11 + a22) + length)) : 0.0;
+}
+
 std::array<double, 4> shape(bool triangle, double s, double t) {
   if (triangle) return {1.0 - s - t, s, t, 0.0};
   return {0.25 * (1.0 - s) * (1.0 - t), 0.25 * (1.0 + s) * (1.0 - t), 0.25 * (1.0 + s) * (1.0 + t), 0.25 * (1.0 - s) * (1.0 + t)};

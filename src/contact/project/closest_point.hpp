@@ -51,6 +51,10 @@ struct ClosestPoint {
 /// the hull of its corners, is at least this far from it.
 [[nodiscard]] double height_over(const Patch& patch, const Vec3& x);
 
+/// A lower bound of the distance from x to `patch` (with its strips), at a sixth of the cost of the closest point: x and the facet lie on
+/// both sides of a plane that is this far from x. Exact where the closest point of a parallelogram is; 0 for triangles.
+[[nodiscard]] double distance_at_least(const Patch& patch, const Vec3& x);
+
 /// Closest point of `patch` (with its strips) to x.
 [[nodiscard]] ClosestPoint closest_point(const Patch& patch, const Vec3& x);
 

@@ -11,6 +11,7 @@ void BoxTree::update() {
   items_.resize(boxes_.size());
   std::iota(items_.begin(), items_.end(), 0);
   nodes_.clear();
+  if (boxes_.size() > 8) nodes_.reserve(boxes_.size() / 2);  // leaves of four to eight boxes, and as many nodes above them
   if (!boxes_.empty()) split(0, static_cast<Index>(boxes_.size()));
   size_ = refit();
 }
@@ -19,7 +20,7 @@ double BoxTree::refit() {
   double sum = 0.0;
   for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
     Node& node = nodes_[n];
-    Bounds bounds;
+    CoarseBounds bounds;
     if (node.count > 0) {
       for (Index k = node.first; k < node.first + node.count; ++k) {
         bounds.include(boxes_[static_cast<std::size_t>(items_[static_cast<std::size_t>(k)])]);
@@ -29,7 +30,8 @@ double BoxTree::refit() {
       bounds.include(nodes_[static_cast<std::size_t>(node.second)].bounds);
     }
     node.bounds = bounds;
-    const Vec3 side = bounds.high - bounds.low;
+    const Bounds wide = bounds.bounds();
+    const Vec3 side = wide.high - wide.low;
     sum += side.x * side.y + side.y * side.z + side.z * side.x;
   }
   return sum;
@@ -41,7 +43,7 @@ Index BoxTree::split(Index first, Index last) {
   Node node;
   Bounds centres;
   const auto centre = [this](Index i) {
-    const Bounds& b = boxes_[static_cast<std::size_t>(i)];
+    const Bounds b = box(i);
     return 0.5 * (b.low + b.high);
   };
   for (Index k = first; k < last; ++k) {

@@ -30,6 +30,24 @@ Patch widest(const Side& surface, Index f) {
 
 }  // namespace
 
+void Positions::keep(std::span<const Vec3> x) {
+  x_.resize(x.size());
+  double squared = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x_[i] = {static_cast<float>(x[i].x), static_cast<float>(x[i].y), static_cast<float>(x[i].z)};
+    squared = std::max(squared, squared_norm(x[i] - Vec3{x_[i][0], x_[i][1], x_[i][2]}));
+  }
+  error_ = std::sqrt(squared);
+}
+
+double Positions::largest_motion(std::span<const Vec3> x, const Vec3& common) const {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    squared = std::max(squared, squared_norm(x[i] - Vec3{x_[i][0], x_[i][1], x_[i][2]} - common));
+  }
+  return std::sqrt(squared) + error_;
+}
+
 double lowest_over_borders(const Side& surface, const Candidates& lists, Index node, const Vec3& x) {
   double least = 1e300;
   for (const Candidates::Entry& entry : lists.of(node)) {
@@ -48,19 +66,16 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
     clock_ += change;
     if (slack_ <= skin) return false;
     // Nodes that go to and fro are not far from where the lists were made.
-    slack_ = Motion{shift_, std::sqrt(largest_motion(held.x(), held_then_, shift_, shift_).from_a),
-                    std::sqrt(largest_motion(surface.x(), surface_then_, shift_, shift_).from_a)}
-                 .change();
+    slack_ = Motion{shift_, held_then_.largest_motion(held.x(), shift_), surface_then_.largest_motion(surface.x(), shift_)}.change();
     if (slack_ <= worth_keeping * skin) return false;
   }
-  held_then_.assign(held.x().begin(), held.x().end());
-  surface_then_.assign(surface.x().begin(), surface.x().end());
+  held_then_.keep(held.x());
+  surface_then_.keep(surface.x());
   shift_ = {};
   slack_ = 0.0;
   clock_ = 0.0;
-  std::vector<Bounds>& boxes = tree_.boxes();
-  boxes.resize(at(surface.facet_count()));
-  for (Index f = 0; f < surface.facet_count(); ++f) boxes[at(f)] = facet_bounds(widest(surface, f));
+  tree_.resize(at(surface.facet_count()));
+  for (Index f = 0; f < surface.facet_count(); ++f) tree_.set(f, facet_bounds(widest(surface, f)));
   tree_.update();
   make(held, surface, reach, skin, executor);
   return true;
@@ -112,11 +127,11 @@ void Candidates::list(const Side& held, const Side& surface, Index node, double 
     // Lower bounds: who needs the distance measures it.
     const bool border = surface.borders(f) != 0;
     const double over = height_over(surface.patch(f), x);
-    double away = std::sqrt(squared_distance(tree_.boxes()[at(f)], x));
+    double away = std::sqrt(squared_distance(tree_.box(f), x));
     if (!border) away = std::max(away, over);
     if (away > limit) return;
-    entries.push_back({f, true, away});  // the clock shows 0
-    nearest_[at(node)] = std::min(nearest_[at(node)], border ? std::min(away, over) : away);
+    entries.emplace_back(f, true, border, away);  // the clock shows 0
+    nearest_[at(node)] = std::min(nearest_due(node), border ? std::min(away, over) : away);
   });
   std::sort(entries.begin() + begin, entries.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });
 }

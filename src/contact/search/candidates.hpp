@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,6 +16,33 @@
 
 namespace abut::contact {
 
+/// A time of the clock below: kept in single precision, never later than what it is given.
+class Due {
+ public:
+  Due() = default;
+  Due(double due) : due_(below(due)) {}     // NOLINT: a number like any other
+  operator double() const { return due_; }  // NOLINT
+
+ private:
+  float due_ = 0.0F;
+  static float below(double d) {
+    const auto f = static_cast<float>(std::clamp(d, -3e38, 3e38));
+    return f > d ? f - (1.2e-7F * std::abs(f) + std::numeric_limits<float>::min()) : f;
+  }
+};
+
+/// Positions in single precision, and how far they may be from the true ones.
+class Positions {
+ public:
+  void keep(std::span<const Vec3> x);
+  /// Upper bound of the largest |x - kept - common|.
+  [[nodiscard]] double largest_motion(std::span<const Vec3> x, const Vec3& common) const;
+
+ private:
+  std::vector<std::array<float, 3>> x_;
+  double error_ = 0.0;
+};
+
 /// Lists hold every active facet whose distance to the node is at most its reach, now and until slack() exceeds the skin.
 ///
 /// A clock counts, step by step, how much any node-to-facet distance can have changed: a distance measured when the clock showed c is
@@ -20,10 +50,16 @@ namespace abut::contact {
 class Candidates {
  public:
   struct Entry {
-    Index facet;
-    bool wide;   ///< `due` counts strips as wide as a held node's can be
-    double due;  ///< distance when last measured, before that a lower bound, + the clock then: the distance now is at least due - clock()
+    Index facet : 30;
+    bool wide : 1;    ///< `due` counts strips as wide as a held node's can be
+    bool border : 1;  ///< the facet had free borders when the list was made
+    Due due;  ///< distance when last measured, before that a lower bound, + the clock then: the distance now is at least due - clock()
+
+    Entry() : Entry(0, false, false, 0.0) {}
+    /// @pre 0 <= f < 2^29
+    Entry(Index f, bool w, bool b, double d) : facet(f & 0x1fffffff), wide(w), border(b), due(d) {}
   };
+  static_assert(sizeof(Entry) == 8);
 
   /// Rebuilds the lists when any node-to-facet distance may have changed by more than `skin` since the last build (or `force` is set).
   /// @param motion  since the last update
@@ -47,15 +83,18 @@ class Candidates {
   /// border also the height over their plane: whoever goes around it does not stay in front unseen.
   [[nodiscard]] double nearest_due(Index node) const { return nearest_[at(node)]; }
   void set_nearest_due(Index node, double due) { nearest_[at(node)] = due; }
-  void limit_nearest_due(Index node, double due) { nearest_[at(node)] = std::min(nearest_[at(node)], due); }
+  void limit_nearest_due(Index node, double due) { nearest_[at(node)] = std::min(nearest_due(node), due); }
   /// Of all active facets in the node's list but `facet`, the nearest one: when the first of them is due.
   struct Others {
     Index facet = no_index;  ///< no_index: unknown
     bool wide = false;       ///< as in Entry
     double due = 0.0;
   };
-  [[nodiscard]] const Others& others(Index node) const { return others_[at(node)]; }
-  void set_others(Index node, Others others) { others_[at(node)] = others; }
+  [[nodiscard]] Others others(Index node) const {
+    const Entry& kept = others_[at(node)];
+    return {kept.facet - 1, kept.wide, kept.due};
+  }
+  void set_others(Index node, const Others& others) { others_[at(node)] = {others.facet + 1, others.wide, false, others.due}; }
   /// Upper bound of the change of any node-to-facet distance since the lists were made.
   [[nodiscard]] double slack() const { return slack_; }
   /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box.
@@ -71,10 +110,10 @@ class Candidates {
   BoxTree tree_;
   std::vector<Index> first_;
   std::vector<Entry> entries_;
-  std::vector<double> nearest_;
-  std::vector<Others> others_;
-  std::vector<Vec3> held_then_, surface_then_;  ///< positions when the lists were made
-  Vec3 shift_;                                  ///< mean motion of the surface since then
+  std::vector<Due> nearest_;
+  std::vector<Entry> others_;           ///< facet + 1
+  Positions held_then_, surface_then_;  ///< when the lists were made
+  Vec3 shift_;                          ///< mean motion of the surface since then
   double slack_ = 0.0;
   double clock_ = 0.0;
 

@@ -83,9 +83,8 @@ void IncrementalSearch::refresh(const Side& surface, double gap) {
   moved_ = std::sqrt(moved_);
   if (!then_.empty() && moved_ <= 0.25 * reach_) return;
   then_.assign(surface.x().begin(), surface.x().end());
-  std::vector<Bounds>& boxes = tree_.boxes();
-  boxes.resize(then_.size());
-  for (std::size_t s = 0; s < then_.size(); ++s) boxes[s] = {then_[s], then_[s]};
+  tree_.resize(then_.size());
+  for (std::size_t s = 0; s < then_.size(); ++s) tree_.set(static_cast<Index>(s), {then_[s], then_[s]});
   tree_.update();
   moved_ = 0.0;
   double diagonal = 0.0;

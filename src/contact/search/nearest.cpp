@@ -32,7 +32,7 @@ Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest
 
 Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
   constexpr double rounding = 1.0 + 1e-12;  // of the clock's sums
-  const Candidates::Others& last = candidates.others(node);
+  const Candidates::Others last = candidates.others(node);
   if (last.facet != no_index && (held.facet == no_index || held.facet == last.facet) && surface.active(last.facet) &&
       (last.wide || held.strip <= border_strip)) {
     // The facet that was the nearest, as long as no other can be: what the search below would say, without looking at the list.
@@ -83,6 +83,12 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
     if ((known(entry) && entry.due - clock > rounding * best_distance) || entry.facet == held.facet || &entry == first ||
         !surface.active(entry.facet))
       continue;
+    const double bound = distance_at_least(extended(surface, entry.facet, held.strip), x);
+    if (bound > rounding * best_distance) {
+      entry.due = bound + clock;
+      entry.wide = wide;
+      continue;
+    }
     try_entry(entry);
   }
   candidates.set_nearest_due(node, least + clock);
@@ -91,12 +97,34 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   for (const Candidates::Entry& entry : entries) {
     listed = listed || entry.facet == others.facet;
     if (entry.facet == others.facet || !surface.active(entry.facet)) continue;
-    others.due = std::min(others.due, known(entry) ? entry.due : -1e300);
+    others.due = std::min(others.due, known(entry) ? static_cast<double>(entry.due) : -1e300);
     others.wide = others.wide && (entry.wide || surface.borders(entry.facet) == 0);
   }
   if (!listed) others.facet = no_index;
   candidates.set_others(node, others);
   return facet == no_index ? best : signed_measure(surface, facet, closest, x);
+}
+
+bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance) {
+  const double clock = candidates.clock();
+  const bool wide = held.strip > border_strip;
+  Candidates::Others others{held.facet, true, 1e300};
+  bool listed = false;
+  for (Candidates::Entry& entry : candidates.of(node)) {
+    if (entry.facet == held.facet) listed = true;
+    if (entry.facet == held.facet || !surface.active(entry.facet)) continue;
+    const bool borders = surface.borders(entry.facet) != 0;
+    if ((wide && borders && !entry.wide) || !(entry.due - clock > distance)) {
+      const double bound = distance_at_least(extended(surface, entry.facet, held.strip), x);
+      if (!(bound > distance)) return false;
+      entry.due = bound + clock;
+      entry.wide = wide;
+    }
+    others.due = std::min<double>(others.due, entry.due);
+    others.wide = others.wide && (entry.wide || !borders);
+  }
+  if (listed) candidates.set_others(node, others);
+  return listed;
 }
 
 }  // namespace abut::contact

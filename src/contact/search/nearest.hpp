@@ -33,6 +33,10 @@ struct HeldBy {
 /// Distances that it measures go back into the node's list.
 [[nodiscard]] Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held);
 
+/// No listed facet but the one that holds the node comes within `distance` of it, by bounds that go back into its list. False where bounds
+/// do not tell, or where that facet is not listed.
+[[nodiscard]] bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance);
+
 /// It pushes in about the direction of `normal`.
 [[nodiscard]] inline bool pushes_alike(const Measure& m, const Vec3& normal) { return dot(m.normal, normal) > -0.5; }
 

@@ -41,7 +41,8 @@ class BrickGroup final : public SolidGroup {
     if (solid.iframe != 1 && solid.iframe != 2) refuse("elements.brick_iframe", "Iframe", "use 1 (Jaumann) or 2 (co-rotational)");
     config_.corotational = solid.iframe == 2;
     config_.orthogonal_hourglass = solid.isolid == 1;
-    element_nodes_.reserve(elements_.size() * 8);
+    std::vector<Index> element_nodes;
+    element_nodes.reserve(elements_.size() * 8);
     for (const Index e : elements_) {
       std::array<Index, 8> n = m.bricks.nodes[static_cast<std::size_t>(e)];
       Corners corners;
@@ -53,9 +54,9 @@ class BrickGroup final : public SolidGroup {
       if (determinant(brick_modes(corners)) < 0.0) {
         for (std::size_t k = 0; k < 4; ++k) std::swap(n[k], n[k + 4]);
       }
-      element_nodes_.insert(element_nodes_.end(), n.begin(), n.end());
+      element_nodes.insert(element_nodes.end(), n.begin(), n.end());
     }
-    set_up(m.node_x, brick_frozen_fields, 0);
+    set_up(m.node_x, element_nodes, brick_frozen_fields, 0);
   }
 
   [[nodiscard]] Family family() const override { return Family::brick8; }

@@ -276,6 +276,7 @@ ABUT_INLINE void brick_step(const SolidTask& task) {
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(task.config->fields) * 8;
   for (std::int32_t block = task.first; block < task.last; ++block) {
     if (block + 1 < task.last) simd::prefetch(task.state + (block + 1) * stride, static_cast<std::size_t>(stride));
+    ask(task.ahead, static_cast<std::size_t>(block - task.first), static_cast<std::size_t>(task.last - task.first), {task.x, task.v});
     for (int lane = 0; lane < 8; lane += simd::NumberTraits<R>::width) {
       if (task.config->corotational) {
         brick_lanes<true, R>(task, block, lane, sums);

@@ -131,7 +131,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   const ShellSection& s = *args.section;
   const double h = args.h;
   double* state = args.state + block * static_cast<std::size_t>(s.variables * shell_lanes) + lane;
-  const double* constants = args.constants + block * (shell_constant::count * shell_lanes) + lane;
+  const double* constants = args.constants + block * (shell_constant::triangle_count * shell_lanes) + lane;
   const std::int32_t* nodes = args.nodes + block * (3 * shell_lanes) + lane;
   double* slots = args.slots + block * args.slot_stride + lane;
   const T zero = T(0.0), one = T(1.0);
@@ -206,7 +206,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   const ShellStep<T> step =
       q.step_bound ? c0_step_bound(s, g, r, t, mass[0], mass[1], mass[2], inertia, h) : c0_step_reference(s, q, g, t, damping);
   const auto stays = alive & (n.off > zero);
-  simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
+  simd::NumberTraits<T>::store(args.steps + block * args.step_stride + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
   const Vec<T> f[3] = {f1x * g.e1 + f1y * g.e2 + f1z * g.e3, f2x * g.e1 + f2y * g.e2 + f2z * g.e3, f3x * g.e1 + f3y * g.e2 + f3z * g.e3};
   const Vec<T> m[3] = {m1x * g.e1 + m1y * g.e2, m2x * g.e1 + m2y * g.e2, m3x * g.e1 + m3y * g.e2};
   for (int i = 0; i < 3; ++i) {
@@ -230,6 +230,7 @@ ABUT_INLINE void c0_blocks(const ShellKernelArgs& args, const C0Parameters& q, d
   const auto stride = static_cast<std::size_t>(args.section->variables * shell_lanes);
   for (std::size_t b = begin; b < end; ++b) {
     simd::prefetch(args.state + (b + 1) * stride, stride);
+    ask(args.ahead, b - begin, end - begin, {args.x, args.v, args.w});
     for (int lane = 0; lane < shell_lanes; lane += simd::NumberTraits<T>::width) c0_lanes<T, law>(args, q, damping, b, lane);
     finish_block<T, 3>(args, b);
   }

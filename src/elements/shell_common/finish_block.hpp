@@ -22,7 +22,7 @@ ABUT_INLINE void book_block(const ShellKernelArgs& args, std::size_t block) {
     add(book.hourglass, value(shell_state::hourglass_energy));
     add(book.on, select(value(shell_state::off) > T(0.0), T(1.0), T(0.0)));
     if (!steps) continue;
-    const T step = N::load(args.steps + block * shell_lanes + l), least = N::load(book.step + l);
+    const T step = N::load(args.steps + block * args.step_stride + l), least = N::load(book.step + l);
     const auto smaller = step < least;
     N::store(book.step + l, select(smaller, step, least));
     N::store(book.block + l, select(smaller, T(static_cast<double>(block)), N::load(book.block + l)));

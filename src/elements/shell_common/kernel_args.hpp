@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "elements/nodes_ahead.hpp"
 #include "elements/shell_common/section.hpp"
 #include "simd/gather.hpp"
 #include "simd/pack.hpp"
@@ -13,11 +14,12 @@ namespace abut::elements {
 /// Constants of one element (8 doubles each in a block) that never change after set-up.
 namespace shell_constant {
 enum : int {
-  regular = 0,         ///< 0: nodes 3 and 4 of a quad coincide; else 1
-  active,              ///< 0: rigid or padding; else 1
-  mass,                ///< 4 per element (3 used by triangles): mass share of each node
-  inertia = mass + 4,  ///< rotational inertia over mass, the same for every node of the element
-  count
+  regular = 0,            ///< 0: nodes 3 and 4 of a quad coincide; else 1
+  active,                 ///< 0: rigid or padding; else 1
+  inertia,                ///< rotational inertia over mass, the same for every node of the element
+  mass,                   ///< mass share of a node: one for all four of a quadrilateral, three for a triangle
+  quad_count = mass + 1,  ///< constants of a quadrilateral
+  triangle_count = mass + 3
 };
 }
 
@@ -38,12 +40,14 @@ struct ShellKernelArgs {
   const ShellSection* section = nullptr;
   double* state = nullptr;                   ///< #B by variables by 8
   const std::int32_t* nodes = nullptr;       ///< #B by nodes per element by 8; each 3 times the node's index
-  const double* constants = nullptr;         ///< #B by shell_constant::count by 8
+  const double* constants = nullptr;         ///< #B by quad_count or triangle_count by 8
   double* slots = nullptr;                   ///< of block 0; group.hpp, SlotLayout
   std::size_t slot_stride = 0;               ///< from block to block; 0: every block uses the same
-  double* steps = nullptr;                   ///< #B by 8: element step, 1e30 for elements that are off
+  double* steps = nullptr;                   ///< of block 0, 8 each: element step, 1e30 for elements that are off
+  std::size_t step_stride = 0;               ///< from block to block; 0: every block uses the same
   const std::uint16_t* positions = nullptr;  ///< of block 0 (chunks.hpp)
   double* sums = nullptr;                    ///< of the chunk that the blocks belong to; null: slots only
+  NodesAhead ahead;                          ///< of the next chunk
   ShellBook* book = nullptr;                 ///< of that chunk; null: none
 };
 

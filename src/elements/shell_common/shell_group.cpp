@@ -44,7 +44,11 @@ std::array<double, 6> global_stress(const ShellFrame& f, double xx, double yy, d
 }  // namespace
 
 ShellGroup::ShellGroup(const GroupInput& in, Family family, model::ElementKind kind, int nodes_per_element)
-    : in_(in), family_(family), kind_(kind), per_element_(static_cast<std::size_t>(nodes_per_element)) {
+    : in_(in),
+      family_(family),
+      kind_(kind),
+      per_element_(static_cast<std::size_t>(nodes_per_element)),
+      constant_count_(nodes_per_element == 4 ? shell_constant::quad_count : shell_constant::triangle_count) {
   part_ = in.part;
   elements_ = in.elements;
   layout_.nodes_per_element = nodes_per_element;
@@ -55,10 +59,10 @@ ShellGroup::ShellGroup(const GroupInput& in, Family family, model::ElementKind k
   }
 }
 
-std::span<const Index> ShellGroup::nodes(Index element) const {
+ElementNodes ShellGroup::nodes(Index element) const {
   const auto e = static_cast<std::size_t>(elements_[static_cast<std::size_t>(element)]);
-  if (per_element_ == 4) return in_.model->shells.nodes[e];
-  return in_.model->sh3ns.nodes[e];
+  if (per_element_ == 4) return std::span<const Index>(in_.model->shells.nodes[e]);
+  return std::span<const Index>(in_.model->sh3ns.nodes[e]);
 }
 
 double ShellGroup::initial_thickness(Index element) const {
@@ -72,7 +76,7 @@ double ShellGroup::initial_thickness(Index element) const {
 
 std::array<Vec3, 4> ShellGroup::corners(Index element, const Vec3* x) const {
   std::array<Vec3, 4> c{};
-  const std::span<const Index> n = nodes(element);
+  const ElementNodes n = nodes(element);
   for (std::size_t k = 0; k < n.size(); ++k) c[k] = x[n[k]];
   return c;
 }
@@ -86,14 +90,13 @@ double ShellGroup::variable(Index element, int which) const { return const_cast<
 
 double ShellGroup::constant(Index element, int which) const {
   const auto e = static_cast<std::size_t>(element);
-  return constants_[((e / lanes) * shell_constant::count + static_cast<std::size_t>(which)) * lanes + e % lanes];
+  return constants_[((e / lanes) * constant_count_ + static_cast<std::size_t>(which)) * lanes + e % lanes];
 }
 
 void ShellGroup::set_up() {
   const auto blocks = static_cast<std::size_t>(layout_.blocks);
   const double density = material_of(in_).density;
-  constants_.assign(blocks * shell_constant::count * lanes, 0.0);
-  initial_area_.resize(static_cast<std::size_t>(size()));
+  constants_.assign(blocks * constant_count_ * lanes, 0.0);
   last_x_ = in_.model->node_x.data();
   const auto padded = static_cast<Index>(blocks * lanes);
   for (Index e = 0; e < padded; ++e) {
@@ -102,30 +105,31 @@ void ShellGroup::set_up() {
     const std::array<Vec3, 4> x = corners(source, last_x_);
     const std::span<const Vec3> used(x.data(), per_element_);
     const ShellShares share = shares(used, initial_thickness(source), density);
-    if (e < size()) initial_area_[static_cast<std::size_t>(e)] = frame(used).area;
     const auto set = [&](int which, double value) {
-      constants_[(static_cast<std::size_t>(e / lanes) * shell_constant::count + static_cast<std::size_t>(which)) * lanes +
+      constants_[(static_cast<std::size_t>(e / lanes) * constant_count_ + static_cast<std::size_t>(which)) * lanes +
                  static_cast<std::size_t>(e % lanes)] = value;
     };
     set(shell_constant::regular, share.regular ? 1.0 : 0.0);
     set(shell_constant::active, e < size() ? 1.0 : 0.0);
-    for (int k = 0; k < 4; ++k) set(shell_constant::mass + k, share.mass[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < mass_count(); ++k) set(shell_constant::mass + k, share.mass[static_cast<std::size_t>(k)]);
     set(shell_constant::inertia, share.inertia_per_mass);
   }
   std::vector<Index> flat;
   flat.reserve(elements_.size() * per_element_);
-  for (Index e = 0; e < size(); ++e) flat.insert(flat.end(), nodes(e).begin(), nodes(e).end());
+  for (Index e = 0; e < size(); ++e) {
+    const ElementNodes n = nodes(e);
+    flat.insert(flat.end(), n.begin(), n.end());
+  }
   chunks_ = ChunkTable(flat, static_cast<int>(per_element_), layout_.components);
   if (!section_) return;
 
   nodes_.resize(blocks * per_element_ * lanes);
-  steps_.assign(blocks * lanes, 1e30);
   finish_block_ = choose_finish_block(per_element_ == 4);
   results_.resize(static_cast<std::size_t>(chunks_.size()));
   state_.assign(blocks * static_cast<std::size_t>(section_->variables) * lanes, 0.0);
   for (Index e = 0; e < padded; ++e) {
     const Index source = std::min(e, size() - 1);
-    const std::span<const Index> n = nodes(source);
+    const ElementNodes n = nodes(source);
     for (std::size_t k = 0; k < per_element_; ++k) {
       nodes_[(static_cast<std::size_t>(e / lanes) * per_element_ + k) * lanes + static_cast<std::size_t>(e % lanes)] = 3 * n[k];
     }
@@ -142,9 +146,9 @@ void ShellGroup::set_up() {
 
 void ShellGroup::add_masses(std::span<double> mass, std::span<double> inertia) const {
   for (Index e = 0; e < size(); ++e) {
-    const std::span<const Index> n = nodes(e);
+    const ElementNodes n = nodes(e);
     for (std::size_t k = 0; k < n.size(); ++k) {
-      const double share = constant(e, shell_constant::mass + static_cast<int>(k));
+      const double share = mass_of_corner(e, static_cast<int>(k));
       mass[static_cast<std::size_t>(n[k])] += share;
       inertia[static_cast<std::size_t>(n[k])] += share * constant(e, shell_constant::inertia);
     }
@@ -167,10 +171,12 @@ double ShellGroup::count_on(std::size_t chunk) const {
 
 void ShellGroup::run_chunk(ShellKernelArgs args, const StepOutput& out, std::size_t chunk) {
   alignas(64) double scratch[4 * 8 * lanes];  // slots of one block, when nobody asks for them all
+  alignas(64) double steps[lanes];
   ShellBook book;
   args.slots = out.slots != nullptr ? out.slots + layout_.offset : scratch;
   args.slot_stride = out.slots != nullptr ? per_element_ * 8 * lanes : 0;
   args.positions = chunks_.positions();
+  args.steps = steps;
   double* sums = out.sums != nullptr ? out.sums + chunks_.sum_offset(chunk) : nullptr;
   if (sums != nullptr) std::fill_n(sums, chunks_.nodes(chunk).size() * 8, 0.0);
   ChunkResult& result = results_[chunk];
@@ -179,6 +185,7 @@ void ShellGroup::run_chunk(ShellKernelArgs args, const StepOutput& out, std::siz
   if (!acts_on_small_steps()) {
     args.sums = sums;
     args.book = &book;
+    args.ahead = chunks_.ahead_of(chunk);
     run(args, first, end);
   } else {
     ShellKernelArgs whole = args;
@@ -206,7 +213,7 @@ void ShellGroup::run_chunk(ShellKernelArgs args, const StepOutput& out, std::siz
 }
 
 void ShellGroup::act_on_small_steps(const ShellKernelArgs& args, std::size_t block) {
-  double* step = steps_.data() + block * lanes;
+  double* step = args.steps;
   for (int l = 0; l < lanes; ++l) {
     if (!(in_.step_scale * step[l] <= in_.step_minimum)) continue;
     const auto element = static_cast<Index>(block * lanes + static_cast<std::size_t>(l));
@@ -238,7 +245,6 @@ GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, paralle
   args.state = state_.data();
   args.nodes = nodes_.data();
   args.constants = constants_.data();
-  args.steps = steps_.data();
   pool.for_ranges(results_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) run_chunk(args, out, c);
   });
@@ -268,7 +274,7 @@ void ShellGroup::set_rigid(std::span<const std::uint8_t> rigid) {
   if (rigid.size() != elements_.size()) throw std::invalid_argument("set_rigid: one flag per element of the group");
   shares_.valid = false;
   for (std::size_t e = 0; e < rigid.size(); ++e) {
-    constants_[((e / lanes) * shell_constant::count + shell_constant::active) * lanes + e % lanes] = rigid[e] != 0 ? 0.0 : 1.0;
+    constants_[((e / lanes) * constant_count_ + shell_constant::active) * lanes + e % lanes] = rigid[e] != 0 ? 0.0 : 1.0;
   }
 }
 
@@ -280,7 +286,7 @@ double ShellGroup::thickness(Index element) const {
 
 double ShellGroup::element_mass(Index element) const {
   double mass = 0.0;
-  for (int k = 0; k < layout_.nodes_per_element; ++k) mass += constant(element, shell_constant::mass + k);
+  for (int k = 0; k < layout_.nodes_per_element; ++k) mass += mass_of_corner(element, k);
   return mass;
 }
 
@@ -359,7 +365,8 @@ PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w,
     for (Index e = 0; e < size(); ++e) {
       if (constant(e, shell_constant::active) == 0.0) continue;
       const double share = element_mass(e) / static_cast<double>(per_element_);
-      const double t = initial_thickness(e), area = initial_area_[static_cast<std::size_t>(e)];
+      const std::array<Vec3, 4> x = corners(e, in_.model->node_x.data());
+      const double t = initial_thickness(e), area = frame(std::span<const Vec3>(x.data(), per_element_)).area;
       for (int k = 0; k < layout_.nodes_per_element; ++k) {
         const std::size_t place = chunks_.place(e, k);
         shares_.mass[place] += share;

@@ -1,6 +1,7 @@
 // What quadrilateral and triangular shell groups share: blocks, set-up, reductions, output.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -8,12 +9,13 @@
 #include "elements/group.hpp"
 #include "elements/shell_common/kernel_args.hpp"
 #include "elements/shell_common/section.hpp"
+#include "simd/aligned.hpp"
 
 namespace abut::elements {
 
 /// Node shares of one element at t = 0.
 struct ShellShares {
-  std::array<double, 4> mass{};  ///< per node slot
+  std::array<double, 4> mass{};  ///< per node slot; equal for the four of a quadrilateral
   double inertia_per_mass = 0.0;
   bool regular = true;  ///< false: nodes 3 and 4 of a quad coincide
 };
@@ -30,7 +32,7 @@ class ShellGroup : public Group {
  public:
   [[nodiscard]] Family family() const final { return section_ ? family_ : Family::inert; }
   [[nodiscard]] model::ElementKind kind() const final { return kind_; }
-  [[nodiscard]] std::span<const Index> nodes(Index element) const final;
+  [[nodiscard]] ElementNodes nodes(Index element) const final;
   void add_masses(std::span<double> mass, std::span<double> inertia) const final;
   GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) final;
   /// @param rigid one flag per element of the group (group-local index)
@@ -71,6 +73,10 @@ class ShellGroup : public Group {
   using FinishBlock = void (*)(const ShellKernelArgs& args, std::size_t block);
 
   [[nodiscard]] double constant(Index element, int which) const;
+  [[nodiscard]] int mass_count() const { return per_element_ == 4 ? 1 : 3; }
+  [[nodiscard]] double mass_of_corner(Index element, int k) const {
+    return constant(element, shell_constant::mass + std::min(k, mass_count() - 1));
+  }
   [[nodiscard]] double initial_thickness(Index element) const;
   [[nodiscard]] std::array<Vec3, 4> corners(Index element, const Vec3* x) const;
   void run_chunk(ShellKernelArgs args, const StepOutput& out, std::size_t chunk);
@@ -82,11 +88,10 @@ class ShellGroup : public Group {
   Family family_;
   model::ElementKind kind_;
   std::size_t per_element_;
-  std::vector<double> state_;
-  std::vector<double> constants_;
-  std::vector<double> initial_area_;
-  std::vector<std::int32_t> nodes_;
-  std::vector<double> steps_;
+  std::size_t constant_count_;  ///< of shell_constant
+  simd::AlignedVector<double> state_;
+  simd::AlignedVector<double> constants_;
+  simd::AlignedVector<std::int32_t> nodes_;
   std::vector<ChunkResult> results_;
   FinishBlock finish_block_ = nullptr;
   mutable NodalShares shares_;

@@ -114,7 +114,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const ShellSection& s = *args.section;
   const double h = args.h;
   double* state = args.state + block * static_cast<std::size_t>(s.variables * shell_lanes) + lane;
-  const double* constants = args.constants + block * (shell_constant::count * shell_lanes) + lane;
+  const double* constants = args.constants + block * (shell_constant::quad_count * shell_lanes) + lane;
   double* slots = args.slots + block * args.slot_stride + lane;
   const T zero = T(0.0), one = T(1.0), two = T(2.0);
 
@@ -209,7 +209,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const Vec<T> m1 = m1x * g.e1 + m1y * g.e2, m2 = m2x * g.e1 + m2y * g.e2;
   const Vec<T> ma = (msx + hg.mx) * g.e1 + (msy + hg.my) * g.e2, mb = (msx - hg.mx) * g.e1 + (msy - hg.my) * g.e2;
   const auto stays = alive & (n.off > zero);
-  simd::NumberTraits<T>::store(args.steps + block * shell_lanes + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
+  simd::NumberTraits<T>::store(args.steps + block * args.step_stride + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
   const T stiffness = select(stays, q.step_bound ? step.per_mass * mass : step.stiffness, zero);
   const T rotational = select(stays, q.step_bound ? step.per_mass * mass * inertia : step.rotational, zero);
   const Vec<T> f[4] = {f1 + g.gamma1 * fh, f2 + g.gamma2 * fh, g.gamma3 * fh - f1, g.gamma4 * fh - f2};
@@ -238,6 +238,7 @@ ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, d
     const std::int32_t* nodes = args.nodes + b * (4 * shell_lanes);
     double* state = args.state + b * stride;
     simd::prefetch(state + stride, stride);
+    ask(args.ahead, b - begin, end - begin, {args.x, args.v, args.w});
     for (int p = 0; p < shell_lanes / width; ++p) q4_geometry(args, q, state + p * width, nodes + p * width, motion[p].g);
     for (int p = 0; p < shell_lanes / width; ++p) q4_motion(args, nodes + p * width, motion[p]);
     for (int p = 0; p < shell_lanes / width; ++p) q4_lanes<T, law>(args, q, damping, b, p * width, motion[p]);

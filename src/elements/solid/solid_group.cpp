@@ -119,7 +119,7 @@ double SolidGroup::at(Index element, int field) const {
   return state_[((e / lanes) * static_cast<std::size_t>(config_.fields) + static_cast<std::size_t>(field)) * lanes + e % lanes];
 }
 
-void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share_fields) {
+void SolidGroup::set_up(const std::vector<Vec3>& x, std::span<const Index> element_nodes, int frozen_fields, int share_fields) {
   SolidConfig& c = config_;
   c.fields = common_fields;
   const auto reserve_fields = [&c](bool wanted, int count, int& first) {
@@ -140,7 +140,7 @@ void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share
   const auto n = static_cast<std::size_t>(nodes_per_element_);
   block_offsets_.assign(padded * n, 0);
   state_.assign(padded * static_cast<std::size_t>(c.fields), 0.0);
-  chunks_ = ChunkTable(element_nodes_, nodes_per_element_, layout_.components);
+  chunks_ = ChunkTable(element_nodes, nodes_per_element_, layout_.components);
   results_.resize(static_cast<std::size_t>(chunks_.size()));
 
   std::vector<Vec3> corners(n);
@@ -149,7 +149,7 @@ void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share
     // Padding repeats the last element, switched off, so that its arithmetic stays harmless.
     const std::size_t e = std::min(slot, static_cast<std::size_t>(count) - 1);
     for (std::size_t k = 0; k < n; ++k) {
-      const Index node = element_nodes_[e * n + k];
+      const Index node = element_nodes[e * n + k];
       corners[k] = x[static_cast<std::size_t>(node)];
       block_offsets_[((slot / lanes) * n + k) * lanes + slot % lanes] = 3 * node;
     }
@@ -183,16 +183,19 @@ void SolidGroup::set_up(const std::vector<Vec3>& x, int frozen_fields, int share
   }
 }
 
-std::span<const Index> SolidGroup::nodes(Index element) const {
-  const auto n = static_cast<std::size_t>(nodes_per_element_);
-  return {element_nodes_.data() + static_cast<std::size_t>(element) * n, n};
+ElementNodes SolidGroup::nodes(Index element) const {
+  const auto e = static_cast<std::size_t>(element), n = static_cast<std::size_t>(nodes_per_element_);
+  ElementNodes nodes;
+  for (std::size_t k = 0; k < n; ++k) nodes.push_back(block_offsets_[((e / lanes) * n + k) * lanes + e % lanes] / 3);
+  return nodes;
 }
 
 void SolidGroup::add_masses(std::span<double> mass, std::span<double> /*inertia*/) const {
   for (Index e = 0; e < size(); ++e) {
+    const ElementNodes mine = nodes(e);
     for (int k = 0; k < nodes_per_element_; ++k) {
       const double share = nodes_per_element_ == 4 ? at(e, config_.share_field + k) : 0.125;
-      mass[static_cast<std::size_t>(nodes(e)[static_cast<std::size_t>(k)])] += share * at(e, f_mass);
+      mass[static_cast<std::size_t>(mine[static_cast<std::size_t>(k)])] += share * at(e, f_mass);
     }
   }
 }
@@ -215,6 +218,7 @@ GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, paralle
       task.first = static_cast<std::int32_t>(chunks_.first_block(i));
       task.last = static_cast<std::int32_t>(chunks_.end_block(i));
       task.chunk = &results_[i];
+      task.ahead = chunks_.ahead_of(i);
       if (out.sums != nullptr) {
         task.sums = out.sums + chunks_.sum_offset(i);
         std::fill_n(task.sums, chunks_.nodes(i).size() * 4, 0.0);

@@ -8,6 +8,7 @@
 #include "elements/group.hpp"
 #include "elements/solid/solid_kernels.hpp"
 #include "elements/solid/solid_layout.hpp"
+#include "simd/aligned.hpp"
 
 namespace abut::elements {
 
@@ -20,7 +21,7 @@ struct SolidGeometry {
 
 class SolidGroup : public Group {
  public:
-  [[nodiscard]] std::span<const Index> nodes(Index element) const override;
+  [[nodiscard]] ElementNodes nodes(Index element) const override;
   void add_masses(std::span<double> mass, std::span<double> inertia) const override;
   GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) override;
   /// @param rigid one flag per group-local element
@@ -40,9 +41,10 @@ class SolidGroup : public Group {
   /// @throws InputError when the part's law or property has a choice that these elements do not have
   SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel kernel);
 
-  /// Fills state and masses; `element_nodes_` and `config_` are set. Called by the families' constructors.
+  /// Fills state and masses; `config_` is set. Called by the families' constructors.
+  /// @param element_nodes  #E by nodes_per_element, right-handed
   /// @param frozen_fields fields that small strain needs; @param share_fields 0, or twice the nodes per element
-  void set_up(const std::vector<Vec3>& x, int frozen_fields, int share_fields);
+  void set_up(const std::vector<Vec3>& x, std::span<const Index> element_nodes, int frozen_fields, int share_fields);
   [[nodiscard]] virtual SolidGeometry geometry(std::span<const Vec3> corners) const = 0;
 
   [[nodiscard]] double& at(Index element, int field);
@@ -52,12 +54,11 @@ class SolidGroup : public Group {
   double density_ = 0.0;              ///< rho_i, gives the masses
   bool reference_part_mass_ = false;  ///< small strain: part sums with rho^n V_0 (4.3.4)
   int nodes_per_element_ = 0;
-  std::vector<Index> element_nodes_;  ///< #E by nodes_per_element, right-handed
 
  private:
   SolidKernel kernel_ = nullptr;
-  std::vector<std::int32_t> block_offsets_;
-  std::vector<double> state_;
+  simd::AlignedVector<std::int32_t> block_offsets_;
+  simd::AlignedVector<double> state_;
   std::vector<SolidChunk> results_;
   mutable NodalShares shares_;
 };

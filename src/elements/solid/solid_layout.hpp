@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "elements/nodes_ahead.hpp"
 #include "materials/solid_law.hpp"
 
 namespace abut::elements {
@@ -75,6 +76,7 @@ struct SolidTask {
   double* sums = nullptr;  ///< of the chunk (chunks.hpp), or null
   double dt = 0.0;
   std::int32_t first = 0, last = 0;
+  NodesAhead ahead;  ///< of the next chunk
   SolidChunk* chunk = nullptr;
 };
 

@@ -18,14 +18,15 @@ class TetraGroup final : public SolidGroup {
     const model::Model& m = *in.model;
     const model::Part& part = m.parts[static_cast<std::size_t>(in.part)];
     by_area_ = std::get<model::SolidProperty>(m.properties[static_cast<std::size_t>(part.property)].data).imas == 1;
-    element_nodes_.reserve(elements_.size() * 4);
+    std::vector<Index> element_nodes;
+    element_nodes.reserve(elements_.size() * 4);
     for (const Index e : elements_) {
       std::array<Index, 4> n = m.tetras.nodes[static_cast<std::size_t>(e)];
       const auto at = [&](std::size_t k) { return m.node_x[static_cast<std::size_t>(n[k])]; };
       if (dot(at(1) - at(0), cross(at(2) - at(0), at(3) - at(0))) < 0.0) std::swap(n[2], n[3]);
-      element_nodes_.insert(element_nodes_.end(), n.begin(), n.end());
+      element_nodes.insert(element_nodes.end(), n.begin(), n.end());
     }
-    set_up(m.node_x, tetra_frozen_fields, tetra_share_fields);
+    set_up(m.node_x, element_nodes, tetra_frozen_fields, tetra_share_fields);
   }
 
   [[nodiscard]] Family family() const override { return Family::tetra4; }

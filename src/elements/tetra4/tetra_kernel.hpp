@@ -114,6 +114,7 @@ template <class R>
 ABUT_INLINE void tetra_step(const SolidTask& task) {
   ChunkSums sums;
   for (std::int32_t block = task.first; block < task.last; ++block) {
+    ask(task.ahead, static_cast<std::size_t>(block - task.first), static_cast<std::size_t>(task.last - task.first), {task.x, task.v});
     for (int lane = 0; lane < 8; lane += simd::NumberTraits<R>::width) tetra_lanes<R>(task, block, lane, sums);
     add_to_chunk<4>(task, block);
   }

@@ -21,7 +21,7 @@ class FilledGroup : public elements::Group {
     layout_.blocks = (size() + elements::lanes - 1) / elements::lanes;
   }
   [[nodiscard]] elements::Family family() const override { return elements::Family::inert; }
-  [[nodiscard]] std::span<const Index> nodes(Index e) const override { return nodes_[static_cast<std::size_t>(e)]; }
+  [[nodiscard]] elements::ElementNodes nodes(Index e) const override { return std::span<const Index>(nodes_[static_cast<std::size_t>(e)]); }
   [[nodiscard]] model::ElementKind kind() const override { return kind_; }
   void add_masses(std::span<double>, std::span<double>) const override {}
   elements::GroupResult step(const elements::StepInput&, const elements::StepOutput&, parallel::ThreadPool&) override { return {}; }

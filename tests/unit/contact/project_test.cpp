@@ -86,6 +86,32 @@ TEST(ClosestPoint, beats_sampling_and_is_stationary) {
   }
 }
 
+// The bound is never above the distance; where sides are parallel it is the distance, but beside a few oblique corners.
+TEST(ClosestPoint, a_bound_of_its_distance) {
+  Random random(11);
+  for (const auto& [name, base] : nasty()) {
+    for (const unsigned borders : {0u, 5u, 15u}) {
+      Patch patch = base;
+      patch.borders = static_cast<std::uint8_t>(patch.triangle ? borders & 7u : borders);
+      const double size = size_of(patch);
+      const Vec3 centre = 0.25 * (patch.x[0] + patch.x[1] + patch.x[2] + patch.x[3]);
+      for (int shot = 0; shot < 3000; ++shot) {
+        const Vec3 x = centre + somewhere(random, (shot % 3 == 0 ? 0.01 : shot % 3 == 1 ? 0.5 : 3.0) * size);
+        ASSERT_LE(distance_at_least(patch, x), std::sqrt(closest_point(patch, x).squared_distance)) << name << " borders " << borders;
+      }
+    }
+  }
+  const Patch oblique{{Vec3{0, 0, 0}, Vec3{2, 0, 0.5}, Vec3{2.7, 1, 0.8}, Vec3{0.7, 1, 0.3}}, false, 2};
+  int exact = 0;
+  for (int shot = 0; shot < 3000; ++shot) {
+    const Vec3 x = oblique.x[0] + somewhere(random, 4.0);
+    const double distance = std::sqrt(closest_point(oblique, x).squared_distance), bound = distance_at_least(oblique, x);
+    ASSERT_GT(bound, 0.95 * distance);
+    exact += bound > (1.0 - 1e-12) * distance ? 1 : 0;
+  }
+  EXPECT_GT(exact, 2900);
+}
+
 // The taper's gradient by finite differences.
 TEST(Taper, gradient_is_its_derivative) {
   for (const bool triangle : {false, true}) {

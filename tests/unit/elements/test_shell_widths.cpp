@@ -76,7 +76,7 @@ struct Arrays {
       w.push_back(0.02 * d(random));
     }
     state.assign(blocks * static_cast<std::size_t>(section.variables) * 8, 0.0);
-    constants.assign(blocks * shell_constant::count * 8, 1.0);
+    constants.assign(blocks * shell_constant::triangle_count * 8, 1.0);
     slots.assign(blocks * per * 64, 0.0);
     steps.assign(blocks * 8, 0.0);
     nodes.resize(blocks * per * 8);
@@ -103,6 +103,7 @@ struct Arrays {
     a.slots = slots.data();
     a.slot_stride = slots.size() / blocks;
     a.steps = steps.data();
+    a.step_stride = 8;
     return a;
   }
   void move() {

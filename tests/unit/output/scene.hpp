@@ -78,7 +78,7 @@ class FakeGroup final : public elements::Group {
   double scale = 1.0;
 
   elements::Family family() const override { return elements::Family::inert; }
-  std::span<const Index> nodes(Index) const override { return {}; }
+  elements::ElementNodes nodes(Index) const override { return {}; }
   model::ElementKind kind() const override { return kind_; }
   void add_masses(std::span<double>, std::span<double>) const override {}
   elements::GroupResult step(const elements::StepInput&, const elements::StepOutput&, parallel::ThreadPool&) override { return {}; }
