@@ -32,6 +32,13 @@ bool manifest_is_of(const RunFolder& folder, std::uint64_t model_fingerprint) {
   return !j.contains(place) || j[place] == fingerprint_text(model_fingerprint);
 }
 
+bool manifest_says_running(const RunFolder& folder) {
+  std::ifstream file(folder.manifest());
+  const Json j = Json::parse(file, nullptr, false);
+  const Json::json_pointer place("/outcome/kind");
+  return j.is_object() && j.contains(place) && j[place] == "running";
+}
+
 Manifest::Manifest(RunFolder folder, RunInfo info, std::function<std::vector<PhaseTime>()> timings)
     : folder_(std::move(folder)), info_(std::move(info)), timings_(std::move(timings)) {}
 

@@ -16,6 +16,9 @@ namespace abut::output {
 /// False when a folder's run.json says that its results are those of another model; true also when there is none that says it.
 [[nodiscard]] bool manifest_is_of(const RunFolder& folder, std::uint64_t model_fingerprint);
 
+/// A folder's run.json says that its run has not ended: it goes on, or was killed.
+[[nodiscard]] bool manifest_says_running(const RunFolder& folder);
+
 /// Written before the first cycle (outcome "running": that is what a killed run leaves) and at the end, each time as a
 /// whole. Keys: abut, decks, settings, model, findings, contact (findings of the contact inspection with all ids), started, resumed, files;
 /// at the end also outcome, timings, energies, worst, hashes (16 hexadecimal digits). Numbers that are not finite become null.

@@ -47,6 +47,11 @@ class RunRecord {
     double seconds = wall_seconds();
     a(seconds);
     if (a.loading()) earlier_seconds_ = seconds;
+    Balance& b = balance_;
+    for (double* term : {&b.ie, &b.he, &b.ke, &b.ker, &b.ce, &b.fw, &b.dw, &b.cx, &b.extw, &b.xe, &b.initial, &b.largest, &b.err, &b.ledger,
+                         &b.mass, &b.added_mass})
+      a(*term);
+    a(b.momentum);
     for (Worst* worst : {&error_, &made_}) {
       a(worst->value);
       a(worst->time);

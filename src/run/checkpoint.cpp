@@ -194,7 +194,9 @@ Candidates find_checkpoints(const std::filesystem::path& place) {
   return found;
 }
 
-Model model_of(const run::CheckpointInfo& info, const std::filesystem::path& checkpoint, const std::filesystem::path& deck) {
+/// @param files_end  the files beside the checkpoint are those of a run that ended
+Model model_of(const run::CheckpointInfo& info, const std::filesystem::path& checkpoint, const std::filesystem::path& deck,
+               bool files_end) {
   const std::filesystem::path path = deck.empty() ? std::filesystem::path(info.deck) : deck;
   if (path.empty()) refuse(checkpoint, "its model was built in memory: load it with that model");
   std::error_code error;
@@ -213,6 +215,8 @@ Model model_of(const run::CheckpointInfo& info, const std::filesystem::path& che
   if (info.run > 1) model = Model::read(path, {.orient = info.orient, .write_deck = {}, .run = info.run});
   if (info.time <= model.end_time()) return model;
   if (model.last_run_number() == info.run) {
+    // Killed after its last checkpoint: the state is final, what is left is to end the files.
+    if (!files_end) return model;
     refuse(checkpoint, fmt::format("the run is finished (time {:.8g}); an Engine deck of run {} with a later final time makes it go on",
                                    info.time, info.run + 1));
   }
@@ -229,7 +233,7 @@ Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted
     if (!output::manifest_is_of({candidates.folder, info.name}, info.fingerprint)) {
       refuse(path, fmt::format("it is of another model ('{}') than the results in this folder", info.name));
     }
-    const Model model = model_of(info, path, wanted.deck);
+    const Model model = model_of(info, path, wanted.deck, !output::manifest_says_running({candidates.folder, info.name}));
     RunSettings settings;
     settings.threads = wanted.threads;
     settings.choices.rules = info.reference ? Rules::reference : Rules::standard;

@@ -177,6 +177,19 @@ def half_way(case, folder):
     fail("a run can be killed between its second checkpoint and its end")
 
 
+def at_the_last_moment(case):
+    """Killed when the last checkpoint was written and run.json was not: the files are brought to their end."""
+    begun = os.path.join(case.folder, "begun")
+    half_way(case, begun)
+    folder = os.path.join(case.folder, "nearly")
+    shutil.copytree(case.reference, folder)
+    shutil.copy(os.path.join(begun, "run.json"), os.path.join(folder, "run.json"))
+    result = case.resume(folder)
+    expect(result.returncode == 0, "a run that was killed before its files were ended is brought to its end", result)
+    case.expect_same(folder, "killed at the last moment")
+    untouched(case, folder, "the run is finished", "and is finished then")
+
+
 def full_disk(case):
     """A limit on the size of files stands for a disk that is full: the write fails in the middle."""
     def limited(size):
@@ -422,6 +435,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="abut_restart_") as folder:
         case = Case(os.path.abspath(arguments.abut), arguments.deck, folder, random.Random(arguments.seed))
         kills(case, arguments.kills)
+        at_the_last_moment(case)
         full_disk(case)
         small_disk(case)
         damages(case, arguments.damages)
