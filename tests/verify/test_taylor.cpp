@@ -11,7 +11,7 @@
 // A quarter of the bar; the disc is a core of n x n and two blocks of n x n quads around it. Default profile and property. The
 // surface of the bar is its foot and its flank, which rolls onto the block. The softer the springs, the less flat the foot:
 // at the default s = 0.2 its radius is 2.5 % larger. A rigid wall takes the speed of the foot's nodes once and for all, half a layer of
-// bricks and up to 3.5 % of the energy; springs give it back, node by node, and that ends in the foot's hourglass modes. The length is that
+// bricks and up to 3.5 % of the energy; springs give it back, and the foot's hourglass energy is larger then. The length is that
 // from the foot to the head: nodes on the axis, which only the rigid wall stops, run through the foot in such a mode. Perfectly plastic
 // bricks at the foot's rim are crushed, and the step with them (even bricks of 1.3 mm along: 190 000 cycles); there the bricks are taller
 // at the foot, by a factor 1/0.94 each.
