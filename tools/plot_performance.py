@@ -47,6 +47,14 @@ def last_rows(path, *keys):
     return last
 
 
+def common_unit(rows):
+    """All rows in the least unit that was measured beside them: the cores' clock moves, and `ns` is the least of all cycles."""
+    least = min(row["unit_ns"] for row in rows)
+    for row in rows:
+        row["unit_ns"], row["units_cycle"] = least, row["ns"] / least
+    return rows
+
+
 def family(row):
     return row["scene"].split("_")[0]
 
@@ -153,7 +161,7 @@ def measured(rows, out, page):
     commits = sorted({row["commit"] for row in rows})
     folder = Path(out).resolve().relative_to(page.resolve().parent)
     yield BEGIN
-    yield (f"{newest['cpu']}, {newest['compiler']}; commit {', '.join(commits)}; unit {min(row['unit_ns'] for row in rows):.0f} ns, triad "
+    yield (f"{newest['cpu']}, {newest['compiler']}; commit {', '.join(commits)}; unit {newest['unit_ns']:.0f} ns, triad "
            f"{newest['triad_gb_s']:.1f} GB/s, peak {max(row['peak_g_s'] for row in rows if row['isa'] == 'avx2'):.0f}e9 simple operations per second (AVX2). "
            "Written by `tools/plot_performance.py` from `bench/results.csv`.")
     yield ""
@@ -181,7 +189,7 @@ def main():
     args = parser.parse_args()
     out, page = Path(args.out), Path(args.page)
     out.mkdir(parents=True, exist_ok=True)
-    rows = list(last_rows(args.csv, "scene", "isa", "threads").values())
+    rows = common_unit(list(last_rows(args.csv, "scene", "isa", "threads").values()))
     by_size(rows, out)
     by_phase(rows, out)
     by_threads(rows, out)
