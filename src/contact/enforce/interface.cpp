@@ -35,15 +35,9 @@ struct Interface::Made {
     check(host.mass.size(), "mass", true);
     check(host.constrained.size(), "constrained", true);
     if (host.constrained.empty()) return;
-    const auto names_one = [&host](Index entry) {
-      return entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size());
-    };
-    bool all = true;
-    for (const Index n : recipe.hosted) all &= names_one(host.constrained[static_cast<std::size_t>(n)]);
-    if (all) return;
     for (const Index n : recipe.hosted) {
       const Index entry = host.constrained[static_cast<std::size_t>(n)];
-      if (names_one(entry)) continue;
+      if (entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size())) continue;
       throw std::invalid_argument("contact: constrained names entry " + std::to_string(entry) + " of " +
                                   std::to_string(host.mobility.size()));
     }
