@@ -1,12 +1,12 @@
 // log, exp, pow and an arctangent over the number types: the same bits for double and for every Pack width, on every CPU.
 //
 // Only + - * /, comparison and operations on the bits of a double are used, so that the result does not depend on libm
-// or on the instruction set. Method: argument reduction by powers of two, log(m) = 2 atanh((m-1)/(m+1)) with the quotient
-// kept to twice the working precision, exp by its Taylor polynomial on |r| <= ln(2)/2; products and sums whose rounding
-// errors matter are split exactly [Dekker, Numer. Math. 18 (1971) 224]. Relative errors, measured against 80-bit
-// arithmetic in tests/unit/simd: below 1e-15 (log: relative to the result).
+// or on the instruction set. Method: x = 2^k m with m in [sqrt(1/2), sqrt(2)), ln(m) = 2 atanh((m - 1)/(m + 1)) by its series, e^r by its
+// Taylor polynomial on |r| <= ln(2)/2. x^y = 2^(y k + y log2(m)): the product with k, the only large one, is exact in two parts, what
+// is left of the exponent is below one half. Relative errors, measured against 80-bit arithmetic in tests/unit/simd: log and exp below
+// 1e-15, pow below 4e-16 (1 + |y|): exponents of hardening and softening laws are of the order of one.
 //
-// Subnormal numbers count as zero, as argument and as result: log(0) = -inf, exp(x < -708) = 0.
+// Subnormal numbers count as zero, as argument and as result, results below 2^-1021 too: log(0) = -inf, exp(x < -708) = 0.
 #pragma once
 
 #include <cstdint>
@@ -50,96 +50,43 @@ namespace math {
 
 inline constexpr double ln2_high = 0x1.62e42fefa38p-1;   // 42 bits: its product with an exponent is exact
 inline constexpr double ln2_low = 0x1.ef35793c7673p-45;  // ln 2 - ln2_high
+inline constexpr double ln2 = 0x1.62e42fefa39efp-1;
 inline constexpr double inverse_ln2 = 0x1.71547652b82fep+0;
 inline constexpr double round_magic = 0x1.8p52;  // adding and subtracting it rounds to an integer
 inline constexpr double infinity = __builtin_huge_val();
 
-/// A value and its rounding error.
+/// ln(x) = k ln 2 + small + rest, |small| <= 0.35, for normal x > 0.
 template <class T>
-struct Two {
-  T high, low;
+struct Logarithm {
+  T k, small, rest;
 };
 
-/// a + b exactly, for |a| >= |b| or a = 0.
 template <class T>
-ABUT_INLINE Two<T> quick_two_sum(T a, T b) {
-  const T s = a + b;
-  return {s, b - (s - a)};
-}
-
-template <class T>
-ABUT_INLINE Two<T> two_sum(T a, T b) {
-  const T s = a + b;
-  const T bb = s - a;
-  return {s, (a - (s - bb)) + (b - bb)};
-}
-
-/// a * b exactly (no overflow: |a|, |b| < 1e290).
-template <class T>
-ABUT_INLINE Two<T> two_product(T a, T b) {
-  const T split = T(134217729.0);  // 2^27 + 1
-  const T ca = split * a, cb = split * b;
-  const T ah = ca - (ca - a), bh = cb - (cb - b);
-  const T al = a - ah, bl = b - bh;
-  const T p = a * b;
-  return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
-}
-
-/// ln(x) for normal x > 0 to about 100 bits less what the tail loses: relative error of high + low below 1e-17.
-template <class T>
-ABUT_INLINE Two<T> log_two(T x) {
+ABUT_INLINE Logarithm<T> logarithm(T x) {
   // x = 2^k m with m in [sqrt(1/2), sqrt(2))
   const std::uint64_t root_half = 0x3fe6a09e667f3bcdULL;
   const auto shifted = to_bits(x) + (std::uint64_t{0x3ff0000000000000ULL} - root_half);
   const T k = from_bits(T(0.0), (shifted >> std::uint64_t{52}) | std::uint64_t{0x4330000000000000ULL}) - T(0x1p52 + 1023.0);
   const T m = from_bits(T(0.0), (shifted & std::uint64_t{0x000fffffffffffffULL}) + root_half);
-  const T f = m - T(1.0);
-  const Two<T> d = two_sum(m, T(1.0));
-  const T s = f / d.high;
-  const Two<T> sd = two_product(s, d.high);
-  const T s_low = (((f - sd.high) - sd.low) - s * d.low) / d.high;
-  const T z = s * s;
-  T q = T(2.0 / 23.0);
-  q = q * z + T(2.0 / 21.0);
-  q = q * z + T(2.0 / 19.0);
-  q = q * z + T(2.0 / 17.0);
-  q = q * z + T(2.0 / 15.0);
-  q = q * z + T(2.0 / 13.0);
-  q = q * z + T(2.0 / 11.0);
-  q = q * z + T(2.0 / 9.0);
-  q = q * z + T(2.0 / 7.0);
-  q = q * z + T(2.0 / 5.0);
-  q = q * z + T(2.0 / 3.0);
-  q = q * z;
-  const Two<T> sum = quick_two_sum(k * T(ln2_high), s + s);
-  return quick_two_sum(sum.high, sum.low + ((s_low + s_low) + s * q + k * T(ln2_low)));
+  const T s = (m - T(1.0)) / (m + T(1.0));
+  const T z = s * s, z2 = z * z, z4 = z2 * z2;  // z <= 0.0295: z^12 is out of sight
+  const T low = (T(2.0 / 3.0) + T(2.0 / 5.0) * z) + (T(2.0 / 7.0) + T(2.0 / 9.0) * z) * z2;
+  const T middle = (T(2.0 / 11.0) + T(2.0 / 13.0) * z) + (T(2.0 / 15.0) + T(2.0 / 17.0) * z) * z2;
+  const T high = (T(2.0 / 19.0) + T(2.0 / 21.0) * z) + T(2.0 / 23.0) * z2;
+  return {k, s + s, (s * z) * (low + z4 * (middle + z4 * high))};
 }
 
-/// e^(x + tail) for |tail| << 1.
+/// 2^k e^r for |r| <= 0.35; `shifted` is k + round_magic, k <= 1024.
 template <class T>
-ABUT_INLINE T exp_two(T x, T tail) {
-  const T lowest = T(-708.0), highest = T(709.782712893384);
-  const T c = max(lowest, min(highest, x));
-  const T shifted = c * T(inverse_ln2) + T(round_magic);
-  const T k = shifted - T(round_magic);
-  const T r = ((c - k * T(ln2_high)) - k * T(ln2_low)) + tail;
-  T p = T(1.0 / 6227020800.0);
-  p = p * r + T(1.0 / 479001600.0);
-  p = p * r + T(1.0 / 39916800.0);
-  p = p * r + T(1.0 / 3628800.0);
-  p = p * r + T(1.0 / 362880.0);
-  p = p * r + T(1.0 / 40320.0);
-  p = p * r + T(1.0 / 5040.0);
-  p = p * r + T(1.0 / 720.0);
-  p = p * r + T(1.0 / 120.0);
-  p = p * r + T(1.0 / 24.0);
-  p = p * r + T(1.0 / 6.0);
-  p = p * r + T(0.5);
-  const T e = T(1.0) + (r + r * r * p);
+ABUT_INLINE T scaled_exp(T r, T shifted) {
+  const T r2 = r * r, r4 = r2 * r2;
+  const T low = (T(0.5) + T(1.0 / 6.0) * r) + (T(1.0 / 24.0) + T(1.0 / 120.0) * r) * r2;
+  const T middle = (T(1.0 / 720.0) + T(1.0 / 5040.0) * r) + (T(1.0 / 40320.0) + T(1.0 / 362880.0) * r) * r2;
+  const T high = (T(1.0 / 3628800.0) + T(1.0 / 39916800.0) * r) + (T(1.0 / 479001600.0) + T(1.0 / 6227020800.0) * r) * r2;
+  const T e = T(1.0) + (r + r2 * (low + r4 * (middle + r4 * high)));
   // 2^(k-1), then doubled: k may be 1024.
   const T half_scale = from_bits(T(0.0), (to_bits(shifted) << std::uint64_t{52}) + std::uint64_t{0x3fe0000000000000ULL});
-  const T y = (e * half_scale) * T(2.0);
-  return select(x < lowest, T(0.0), select(x > highest, T(infinity), y));
+  return (e * half_scale) * T(2.0);
 }
 
 }  // namespace math
@@ -147,8 +94,8 @@ ABUT_INLINE T exp_two(T x, T tail) {
 /// Natural logarithm; -inf at 0, NaN below.
 template <class T>
 ABUT_INLINE T log(T x) {
-  const math::Two<T> l = math::log_two(x);
-  const T y = l.high + l.low;
+  const math::Logarithm<T> l = math::logarithm(x);
+  const T y = l.k * T(math::ln2_high) + (l.small + (l.rest + l.k * T(math::ln2_low)));
   const T zero = T(0.0), smallest = T(0x1p-1022), inf = T(math::infinity);
   const T special = select(x < zero, inf - inf, select(x < smallest, -inf, x));
   return select((x >= smallest) & (x < inf), y, special);
@@ -156,7 +103,13 @@ ABUT_INLINE T log(T x) {
 
 template <class T>
 ABUT_INLINE T exp(T x) {
-  return select(x >= T(-1e308), math::exp_two(x, T(0.0)), select(x < T(0.0), T(0.0), x));
+  const T lowest = T(-708.0), highest = T(709.782712893384);
+  const T c = max(lowest, min(highest, x));
+  const T shifted = c * T(math::inverse_ln2) + T(math::round_magic);
+  const T k = shifted - T(math::round_magic);
+  const T y = math::scaled_exp((c - k * T(math::ln2_high)) - k * T(math::ln2_low), shifted);
+  const T value = select(x < lowest, T(0.0), select(x > highest, T(math::infinity), y));
+  return select(x >= T(-1e308), value, select(x < T(0.0), T(0.0), x));
 }
 
 /// x^y for x >= 0 and finite y; 0^y is 0 for y > 0, 1 for y = 0, inf for y < 0. NaN for x < 0.
@@ -164,9 +117,17 @@ template <class T>
 ABUT_INLINE T pow(T x, T y) {
   const T zero = T(0.0), smallest = T(0x1p-1022), inf = T(math::infinity);
   const auto proper = (x >= smallest) & (x < inf);
-  const math::Two<T> l = math::log_two(select(proper, x, T(1.0)));
-  const math::Two<T> p = math::two_product(y, l.high);
-  const T value = math::exp_two(p.high, p.low + y * l.low);
+  const math::Logarithm<T> l = math::logarithm(select(proper, x, T(1.0)));
+  // 41 bits of y times at most 11 of k; the sum of both parts of the exponent is rounded to n, and what is left of it is exact but for u.
+  const T spread = T(4097.0) * y;
+  const T y_high = spread - (spread - y);
+  const T t = y_high * l.k;
+  const T u = y * ((l.small + l.rest) * T(math::inverse_ln2)) + (y - y_high) * l.k;
+  const T exponent = max(T(-1100.0), min(T(1100.0), t + u));
+  const T shifted = exponent + T(math::round_magic);
+  const T n = shifted - T(math::round_magic);
+  const T power = math::scaled_exp(((t - n) + u) * T(math::ln2), shifted);
+  const T value = select(exponent < T(-1021.0), zero, select(exponent >= T(1024.0), inf, power));
   const T at_zero = select(y > zero, zero, select(y < zero, inf, T(1.0)));
   const T at_infinity = select(y > zero, inf, select(y < zero, zero, T(1.0)));
   const T special = select(x < zero, inf - inf, select(x < smallest, at_zero, select(x >= inf, at_infinity, x)));
