@@ -40,21 +40,19 @@ std::vector<Index> bricks(int n) {
   return nodes;
 }
 
-using Four = simd::Pack<4>;
+using simd::Four;
 
 /// One block straight to the nodes. @param offsets  4 times the node, corner by corner, 8 lanes each
 void add_direct(const double* slots, const std::int32_t* offsets, double* sums) {
   for (int k = 0; k < 8; ++k) {
     for (int lane = 0; lane < 8; lane += 4) {
       const double* s = slots + k * 32 + lane;
-      const auto a = simd::load<4>(s).r, b = simd::load<4>(s + 8).r, c = simd::load<4>(s + 16).r, d = simd::load<4>(s + 24).r;
-      const auto ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-      const auto cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-      const std::int32_t* at = offsets + k * 8 + lane;
-      elements::add_block_detail::add(sums + at[0], __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5));
-      elements::add_block_detail::add(sums + at[1], __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5));
-      elements::add_block_detail::add(sums + at[2], __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7));
-      elements::add_block_detail::add(sums + at[3], __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7));
+      Four m[4] = {simd::load4(s), simd::load4(s + 8), simd::load4(s + 16), simd::load4(s + 24)};
+      simd::transpose(m);
+      for (int l = 0; l < 4; ++l) {
+        double* sum = sums + offsets[k * 8 + lane + l];
+        simd::store(sum, simd::load4(sum) + m[l]);
+      }
     }
   }
 }
@@ -102,8 +100,8 @@ int main(int argc, char** argv) {
     }
     for (std::size_t i = 0; i < node_count; ++i) {
       Four sum(0.0);
-      for (std::uint32_t j = first[i]; j < first[i + 1]; ++j) sum += simd::load<4>(sums.data() + at[j]);
-      simd::store<4>(total.data() + 4 * i, sum);
+      for (std::uint32_t j = first[i]; j < first[i + 1]; ++j) sum += simd::load4(sums.data() + at[j]);
+      simd::store(total.data() + 4 * i, sum);
     }
   });
   const double direct = least_ns(repetitions, count, [&] {
@@ -115,7 +113,7 @@ int main(int argc, char** argv) {
     std::fill(copy.begin(), copy.end(), 0.0);
     for (std::size_t b = 0; b < blocks; ++b) add_direct(slots, offsets.data() + b * 64, b < blocks / 2 ? total.data() : copy.data());
     for (std::size_t i = 0; i < node_count; ++i)
-      simd::store<4>(total.data() + 4 * i, simd::load<4>(total.data() + 4 * i) + simd::load<4>(copy.data() + 4 * i));
+      simd::store(total.data() + 4 * i, simd::load4(total.data() + 4 * i) + simd::load4(copy.data() + 4 * i));
   });
   std::printf("bricks,chunks_ns,direct_ns,copies_ns\n%zu,%.2f,%.2f,%.2f\n", count, by_chunks, direct, copies);
   return 0;

@@ -1,25 +1,18 @@
 #include "cycle/node_kernels.hpp"
 
-#include "simd/gather.hpp"
+#include "simd/four.hpp"
 #include "simd/isa_object.hpp"
 
 namespace abut::cycle::ABUT_ISA {
 
 namespace {
 
-using Four = simd::Pack<4>;
-using Real4 = simd::VectorOf<4>::real;
-
-ABUT_INLINE Four load3(const double* p) { return Four(__builtin_shufflevector(simd::load_pair(p), simd::Pair{p[2], 0.0}, 0, 1, 2, 3)); }
-ABUT_INLINE void store3(double* p, Four a) {
-  const simd::Pair low = __builtin_shufflevector(a.r, a.r, 0, 1);
-  __builtin_memcpy(p, &low, sizeof(low));
-  p[2] = a.r[2];
-}
+using simd::Four;
+using simd::load4;
 
 /// Adds 4 components of the entries of node i.
 ABUT_INLINE void add_entries(const double* sums, const std::uint32_t* at, std::uint32_t begin, std::uint32_t end, Four& total) {
-  for (std::uint32_t j = begin; j < end; ++j) total += simd::load<4>(sums + at[j]);
+  for (std::uint32_t j = begin; j < end; ++j) total += load4(sums + at[j]);
 }
 
 /// Asks for entries that later nodes add up: they lie in the sums of many chunks.
@@ -31,12 +24,10 @@ ABUT_INLINE void ask_for_entries(const double* sums, const std::uint32_t* at, st
 struct Twelve {
   Four p[3];
 };
-ABUT_INLINE Twelve load12(const double* a) { return {{simd::load<4>(a), simd::load<4>(a + 4), simd::load<4>(a + 8)}}; }
-/// s0 s0 s0 s1 | s1 s1 s2 s2 | s2 s3 s3 s3
+ABUT_INLINE Twelve load12(const double* a) { return {{load4(a), load4(a + 4), load4(a + 8)}}; }
 ABUT_INLINE Twelve spread(const double* a) {
-  const Real4 s = simd::load<4>(a).r;
-  return {{Four(__builtin_shufflevector(s, s, 0, 0, 0, 1)), Four(__builtin_shufflevector(s, s, 1, 1, 2, 2)),
-           Four(__builtin_shufflevector(s, s, 2, 3, 3, 3))}};
+  const simd::Triple<Four> s = simd::spread(a);
+  return {{s.x, s.y, s.z}};
 }
 ABUT_INLINE Twelve operator+(const Twelve& a, const Twelve& b) { return {{a.p[0] + b.p[0], a.p[1] + b.p[1], a.p[2] + b.p[2]}}; }
 ABUT_INLINE Twelve operator-(const Twelve& a, const Twelve& b) { return {{a.p[0] - b.p[0], a.p[1] - b.p[1], a.p[2] - b.p[2]}}; }
@@ -46,14 +37,14 @@ ABUT_INLINE Twelve operator*(Four s, const Twelve& a) { return {{s * a.p[0], s *
 /// Sum of the parts of component k, k + 3, ... in order.
 ABUT_INLINE double component(const Twelve& a, int k) {
   double all[12];
-  for (int i = 0; i < 3; ++i) simd::store<4>(all + 4 * i, a.p[i]);
+  for (int i = 0; i < 3; ++i) simd::store(all + 4 * i, a.p[i]);
   return ((all[k] + all[k + 3]) + all[k + 6]) + all[k + 9];
 }
 /// Sum of the parts of each of the four places.
 ABUT_INLINE Four fold(const Twelve& a) { return (a.p[0] + a.p[1]) + a.p[2]; }
 ABUT_INLINE double total(Four a) {
   double all[4];
-  simd::store<4>(all, a);
+  simd::store(all, a);
   return ((all[0] + all[1]) + all[2]) + all[3];
 }
 
@@ -101,9 +92,9 @@ ABUT_INLINE void step(double* a, double* also, const double* b, double s, std::s
   const Four factor(s);
   std::size_t k = begin;
   for (; k + 4 <= end; k += 4) {
-    const Four d = factor * simd::load<4>(b + k);
-    simd::store<4>(a + k, simd::load<4>(a + k) + d);
-    if (also != nullptr) simd::store<4>(also + k, simd::load<4>(also + k) + d);
+    const Four d = factor * load4(b + k);
+    simd::store(a + k, load4(a + k) + d);
+    if (also != nullptr) simd::store(also + k, load4(also + k) + d);
   }
   for (; k < end; ++k) {
     const double d = s * b[k];
@@ -119,7 +110,7 @@ struct Limit {
   bool rotation;
   /// Some of four nodes may be below; 0/0 of nodes without mass and stiffness compares false.
   [[gnu::always_inline]] inline bool may_be_below(std::size_t i, double square) const {
-    return simd::any(Four(2.0) * simd::load<4>(inertia + i) / simd::load<4>(stiffness + i) < Four(square));
+    return simd::any(Four(2.0) * load4(inertia + i) / load4(stiffness + i) < Four(square));
   }
   [[gnu::always_inline]] inline void look(std::size_t i, LimitLeaf& leaf) const {
     if (free != nullptr && free[i] == 0) return;
@@ -148,23 +139,23 @@ void assemble_nodes(const AssembleArgs& args, std::size_t begin, std::size_t end
       add_entries(args.sums, args.solid_at, first, last, force);
     }
     const double mass = args.mass[i];
-    Four f = (args.f_external != nullptr ? load3(args.f_external + 3 * i) : zero) - force;
-    double stiffness = force.r[3];
+    Four f = (args.f_external != nullptr ? simd::load3(args.f_external + 3 * i, 0.0) : zero) - force;
+    double stiffness = simd::fourth(force);
     if (args.f_contact != nullptr) {
-      f += load3(args.f_contact + 3 * i);
+      f += simd::load3(args.f_contact + 3 * i, 0.0);
       stiffness += args.contact_stiffness[i];
     }
-    store3(args.f_internal + 3 * i, force);
+    simd::store3(args.f_internal + 3 * i, force);
     args.stiffness[i] = stiffness;
-    if (args.f != nullptr) store3(args.f + 3 * i, f);
-    store3(args.a + 3 * i, mass > 0.0 ? f / Four(mass) : zero);
+    if (args.f != nullptr) simd::store3(args.f + 3 * i, f);
+    simd::store3(args.a + 3 * i, mass > 0.0 ? f / Four(mass) : zero);
     if (!rotations) continue;
     const double inertia = args.inertia[i];
-    const Four m = (args.m_external != nullptr ? load3(args.m_external + 3 * i) : zero) - moment;
-    store3(args.m_internal + 3 * i, moment);
-    args.rotational_stiffness[i] = moment.r[3];
-    if (args.m != nullptr) store3(args.m + 3 * i, m);
-    store3(args.alpha + 3 * i, inertia > 0.0 ? m / Four(inertia) : zero);
+    const Four m = (args.m_external != nullptr ? simd::load3(args.m_external + 3 * i, 0.0) : zero) - moment;
+    simd::store3(args.m_internal + 3 * i, moment);
+    args.rotational_stiffness[i] = simd::fourth(moment);
+    if (args.m != nullptr) simd::store3(args.m + 3 * i, m);
+    simd::store3(args.alpha + 3 * i, inertia > 0.0 ? m / Four(inertia) : zero);
   }
 }
 

@@ -7,24 +7,22 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/pack.hpp"
+#include "simd/four.hpp"
 
 namespace abut::elements {
 
 namespace add_block_detail {
 
-ABUT_INLINE void add(double* sum, simd::VectorOf<4>::real value) { simd::store<4>(sum, simd::load<4>(sum) + simd::Pack<4>(value)); }
-
 /// Four components of lanes l to l + 3 whose sums begin at sums + position * components.
 template <int components>
 ABUT_INLINE void add_four(const double* slot, const std::uint16_t* position, double* sums) {
-  const auto a = simd::load<4>(slot).r, b = simd::load<4>(slot + 8).r, c = simd::load<4>(slot + 16).r, d = simd::load<4>(slot + 24).r;
-  const auto ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const auto cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  add(sums + position[0] * components, __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5));
-  add(sums + position[1] * components, __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5));
-  add(sums + position[2] * components, __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7));
-  add(sums + position[3] * components, __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7));
+  simd::Four m[4] = {simd::load4(slot), simd::load4(slot + 8), simd::load4(slot + 16), simd::load4(slot + 24)};
+  simd::transpose(m);
+#pragma GCC unroll 4
+  for (int l = 0; l < 4; ++l) {
+    double* sum = sums + position[l] * components;
+    simd::store(sum, simd::load4(sum) + m[l]);
+  }
 }
 
 }  // namespace add_block_detail

@@ -36,6 +36,14 @@ ABUT_INLINE Triple<R> cross(const Triple<R>& a, const Triple<R>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The same pointer, of whose target the compiler knows nothing: it loads a list of offsets again for the next array instead of keeping
+/// all of it on the stack.
+template <class T>
+ABUT_INLINE const T* forgotten(const T* p) {
+  asm("" : "+r"(p));
+  return p;
+}
+
 typedef double Pair __attribute__((vector_size(16)));
 
 ABUT_INLINE Pair load_pair(const double* p) {

@@ -22,6 +22,10 @@ void fill(std::span<const Vec3> x, Corners& n) {
 
 double determinant(const BrickModes<double>& m) { return dot(m.xi, cross(m.eta, m.zeta)); }
 
+BrickModes<double> modes(const Corners& n) {
+  return brick_modes<double>([&n](int k) { return n[k]; });
+}
+
 class BrickGroup final : public SolidGroup {
  public:
   explicit BrickGroup(const GroupInput& in) : SolidGroup(in, 8, brick8_kernel(simd::active_isa())) {
@@ -51,7 +55,7 @@ class BrickGroup final : public SolidGroup {
         corners[k] = {x.x, x.y, x.z};
       }
       // A left-handed numbering is turned by exchanging its two faces.
-      if (determinant(brick_modes(corners)) < 0.0) {
+      if (determinant(modes(corners)) < 0.0) {
         for (std::size_t k = 0; k < 4; ++k) std::swap(n[k], n[k + 4]);
       }
       element_nodes.insert(element_nodes.end(), n.begin(), n.end());
@@ -66,7 +70,7 @@ class BrickGroup final : public SolidGroup {
   [[nodiscard]] SolidGeometry geometry(std::span<const Vec3> x) const override {
     Corners n;
     fill(x, n);
-    BrickModes<double> m = brick_modes(n);
+    BrickModes<double> m = modes(n);
     SolidGeometry g;
     g.volume = determinant(m) / 64.0;
     if (!config_.small_strain) return g;
@@ -76,7 +80,7 @@ class BrickGroup final : public SolidGroup {
       for (auto& r : rows) r = apply(frame, r);
     }
     for (const auto& r : rows) g.frozen.insert(g.frozen.end(), {r.x, r.y, r.z});
-    g.frozen.push_back(largest_face(n));
+    g.frozen.push_back(largest_face<double>([&n](int k) { return n[k]; }));
     return g;
   }
 };
@@ -94,7 +98,7 @@ std::unique_ptr<Group> make_void_bricks(const GroupInput& in) {
       const Vec3& x = m.node_x[static_cast<std::size_t>(nodes[k])];
       n[k] = {x.x, x.y, x.z};
     }
-    const double mass = density * std::abs(determinant(brick_modes(n))) / 64.0;
+    const double mass = density * std::abs(determinant(modes(n))) / 64.0;
     data.nodes.insert(data.nodes.end(), nodes.begin(), nodes.end());
     data.mass.insert(data.mass.end(), 8, mass / 8.0);
   }

@@ -24,12 +24,23 @@ struct BrickModes {
   Vec<R> xi, eta, zeta, g1, g2, g3, g4;
 };
 
+/// A nodal field of an element's eight nodes.
 template <class R>
-ABUT_INLINE BrickModes<R> brick_modes(const Vec<R> (&n)[8]) {
-  const Vec<R> d17 = n[6] - n[0], d28 = n[7] - n[1], d35 = n[4] - n[2], d46 = n[5] - n[3];
-  const Vec<R> s17 = n[6] + n[0], s28 = n[7] + n[1], s35 = n[4] + n[2], s46 = n[5] + n[3];
-  const Vec<R> d1m2 = d17 - d28, d1p2 = d17 + d28, d3m4 = d35 - d46, d3p4 = d35 + d46;
-  const Vec<R> s1m2 = s17 - s28, s1p2 = s17 + s28, s3m4 = s35 - s46, s3p4 = s35 + s46;
+struct NodalField {
+  const double* field;
+  const std::int32_t* offsets;
+  [[gnu::always_inline]] inline Vec<R> operator()(int node) const { return simd::gather3(field, offsets + 8 * node, R()); }
+};
+
+/// @param at  the field's value at a node, 0 to 7. Opposite corners first, so that few values are under way at a time.
+template <class R, class At>
+ABUT_INLINE BrickModes<R> brick_modes(const At& at) {
+  const Vec<R> n0 = at(0), n6 = at(6), d17 = n6 - n0, s17 = n6 + n0;
+  const Vec<R> n1 = at(1), n7 = at(7), d28 = n7 - n1, s28 = n7 + n1;
+  const Vec<R> d1m2 = d17 - d28, d1p2 = d17 + d28, s1m2 = s17 - s28, s1p2 = s17 + s28;
+  const Vec<R> n2 = at(2), n4 = at(4), d35 = n4 - n2, s35 = n4 + n2;
+  const Vec<R> n3 = at(3), n5 = at(5), d46 = n5 - n3, s46 = n5 + n3;
+  const Vec<R> d3m4 = d35 - d46, d3p4 = d35 + d46, s3m4 = s35 - s46, s3p4 = s35 + s46;
   return {d1m2 - d3m4, d1p2 - d3p4, d1p2 + d3p4, s1m2 + s3m4, s1p2 - s3p4, s1m2 - s3m4, Vec<R>{} - (d1m2 + d3m4)};
 }
 
@@ -37,8 +48,10 @@ ABUT_INLINE BrickModes<R> brick_modes(const Vec<R> (&n)[8]) {
 inline constexpr int brick_frozen_fields = 19;  // 3 rows, 3 X, largest |p x q|^2 of the faces
 
 /// Largest |p x q|^2 = (2 A)^2 over the faces; p, q the diagonals (2.1.5).
-template <class R>
-ABUT_INLINE R largest_face(const Vec<R> (&n)[8]) {
+template <class R, class At>
+ABUT_INLINE R largest_face(const At& at) {
+  Vec<R> n[8];
+  for (int k = 0; k < 8; ++k) n[k] = at(k);
   constexpr int faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   R largest(0.0);
   for (const auto& f : faces) {
@@ -87,6 +100,31 @@ ABUT_INLINE R largest_component(const Vec<R>& a) {
   return simd::max(simd::max(simd::abs(a.x), simd::abs(a.y)), simd::abs(a.z));
 }
 
+/// One component of the nodal forces, into the slots of the eight nodes.
+template <class R>
+ABUT_INLINE void scatter_component(double* slot, R mask, R q0, R q1, R q2, R q3, R q4, R q5, R q6) {
+  using N = simd::NumberTraits<R>;
+  q0 = mask * q0;
+  q1 = mask * q1;
+  q2 = mask * q2;
+  q3 = mask * q3;
+  q4 = mask * q4;
+  q5 = mask * q5;
+  q6 = mask * q6;
+  const R ap = q0 + q1, am = q0 - q1;  // +-(xi + eta), +-(xi - eta)
+  const R gp = q3 + q6, gm = q3 - q6;  // Gamma1 +- Gamma4
+  const R hp = q4 + q5, hm = q4 - q5;  // Gamma2 +- Gamma3
+  const R up = q2 + ap, um = q2 - ap, wp = q2 + am, wm = q2 - am;
+  N::store(slot, (gp + hp) - up);                   // - - -   + + + +
+  N::store(slot + 32, (hm - gp) - wm);              // + - -   - + - -
+  N::store(slot + 64, (gp - hp) - um);              // + + -   + - - +
+  N::store(slot + 96, (R(0.0) - (gp + hm)) - wp);   // - + -   - - + -
+  N::store(slot + 128, (gm - hp) + um);             // - - +   + - - -
+  N::store(slot + 160, (R(0.0) - (gm + hm)) + wp);  // + - +   - - + +
+  N::store(slot + 192, (gm + hp) + up);             // + + +   + + + -
+  N::store(slot + 224, (hm - gm) + wm);             // - + +   - + - +
+}
+
 template <bool Corotational, class R>
 ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane, ChunkSums& sums) {
   using N = simd::NumberTraits<R>;
@@ -98,13 +136,9 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
 
   // ---- gather
   R face = zero;
-  BrickModes<R> m;
-  {
-    Vec<R> x[8];
-    for (int k = 0; k < 8; ++k) x[k] = simd::gather3(task.x, offsets + 8 * k, R());
-    m = brick_modes(x);
-    if (c.reference_step && !c.small_strain) face = largest_face(x);
-  }
+  const NodalField<R> x{task.x, offsets}, v{task.v, simd::forgotten(offsets)};
+  BrickModes<R> m = brick_modes<R>(x);
+  if (c.reference_step && !c.small_strain) face = largest_face<R>(x);
   Matrix<R> frame{};
   if constexpr (Corotational) {
     frame = brick_frame(m.eta, m.zeta, m.xi);
@@ -128,12 +162,20 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     m.g3 = {state.get(f + 15), state.get(f + 16), state.get(f + 17)};
     face = state.get(f + 18);
   }
-  BrickModes<R> w;
-  {
-    Vec<R> v[8];
-    for (int k = 0; k < 8; ++k) v[k] = simd::gather3(task.v, offsets + 8 * k, R());
-    w = brick_modes(v);
-  }
+  // ---- geometry. A collapsed or inactive element gets P = 0 and hence no force.
+  const Vec<R> ca = cross(m.eta, m.zeta), cb = cross(m.zeta, m.xi), cc = cross(m.xi, m.eta);
+  const R det = dot(m.xi, ca);
+  const R live = state.get(f_live);
+  const auto sound = (det > zero) & (live > zero);
+  const R inv = simd::select(sound, R(1.0) / simd::select(sound, det, R(1.0)), zero);
+  const R old_volume = state.get(f_volume);
+  const R volume = simd::select(sound, det * R(1.0 / 64.0), old_volume);
+  const R inverse_volume = simd::select(sound, R(64.0) * inv, zero);
+  update_length(c, state, volume);
+  const Vec<R> a = inv * ca, b = inv * cb, d = inv * cc;
+
+  // ---- velocity gradient
+  BrickModes<R> w = brick_modes<R>(v);
   if constexpr (Corotational) {
     w.xi = apply(frame, w.xi);
     w.eta = apply(frame, w.eta);
@@ -143,17 +185,6 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     w.g3 = apply(frame, w.g3);
     w.g4 = apply(frame, w.g4);
   }
-
-  // ---- compute: geometry and velocity gradient. A collapsed or inactive element gets P = 0 and hence no force.
-  const Vec<R> ca = cross(m.eta, m.zeta), cb = cross(m.zeta, m.xi), cc = cross(m.xi, m.eta);
-  const R det = dot(m.xi, ca);
-  const R live = state.get(f_live);
-  const auto sound = (det > zero) & (live > zero);
-  const R inv = simd::select(sound, R(1.0) / simd::select(sound, det, R(1.0)), zero);
-  const R old_volume = state.get(f_volume);
-  const R volume = simd::select(sound, det * R(1.0 / 64.0), old_volume);
-  const R inverse_volume = simd::select(sound, R(64.0) * inv, zero);
-  const Vec<R> a = inv * ca, b = inv * cb, d = inv * cc;
   Matrix<R> l;
   l.x = w.xi.x * a + w.eta.x * b + w.zeta.x * d;
   l.y = w.xi.y * a + w.eta.y * b + w.zeta.y * d;
@@ -242,31 +273,14 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     if constexpr (Corotational) f = apply_transposed(frame, f);
   }
   const R mask = simd::select(acts, R(1.0), zero);
-  for (int i = 0; i < 7; ++i) q[i] = mask * q[i];
   stiffness = simd::select(acts, stiffness, zero);
 
   // ---- scatter: node I gets xi q0 + eta q1 + zeta q2 + Gamma . (q3..q6)
-  const Vec<R> ap = q[0] + q[1], am = q[0] - q[1];  // +-(xi + eta), +-(xi - eta)
-  const Vec<R> gp = q[3] + q[6], gm = q[3] - q[6];  // Gamma1 +- Gamma4
-  const Vec<R> hp = q[4] + q[5], hm = q[4] - q[5];  // Gamma2 +- Gamma3
-  const Vec<R> up = q[2] + ap, um = q[2] - ap, wp = q[2] + am, wm = q[2] - am;
-  const Vec<R> f[8] = {
-      (gp + hp) - up,                               // - - -   + + + +
-      (hm - gp) - wm,                               // + - -   - + - -
-      (gp - hp) - um,                               // + + -   + - - +
-      (Vec<R>{zero, zero, zero} - (gp + hm)) - wp,  // - + -   - - + -
-      (gm - hp) + um,                               // - - +   + - - -
-      (Vec<R>{zero, zero, zero} - (gm + hm)) + wp,  // + - +   - - + +
-      (gm + hp) + up,                               // + + +   + + + -
-      (hm - gm) + wm,                               // - + +   - + - +
-  };
   double* slots = task.slots + static_cast<std::ptrdiff_t>(block) * task.slot_stride + lane;
-  for (int k = 0; k < 8; ++k) {
-    N::store(slots + k * 32, f[k].x);
-    N::store(slots + k * 32 + 8, f[k].y);
-    N::store(slots + k * 32 + 16, f[k].z);
-    N::store(slots + k * 32 + 24, stiffness);
-  }
+  for (int k = 0; k < 8; ++k) N::store(slots + k * 32 + 24, stiffness);
+  scatter_component(slots, mask, q[0].x, q[1].x, q[2].x, q[3].x, q[4].x, q[5].x, q[6].x);
+  scatter_component(slots + 8, mask, q[0].y, q[1].y, q[2].y, q[3].y, q[4].y, q[5].y, q[6].y);
+  scatter_component(slots + 16, mask, q[0].z, q[1].z, q[2].z, q[3].z, q[4].z, q[5].z, q[6].z);
 }
 
 /// Steps a chunk of blocks.

@@ -16,7 +16,7 @@ template <class T>
 struct Q4Geometry {
   Vec<T> e1, e2, e3;
   T x2, y2, x3, y3, x4, y4, z2;  ///< local coordinates relative to node 1
-  T px1, py1, px2, py2, area;
+  T px1, py1, px2, py2, area, inverse_area;
   T hx, hy;  ///< 0 where gamma = Gamma
   T gamma1, gamma2, gamma3, gamma4;
 };
@@ -55,6 +55,7 @@ ABUT_INLINE void q4_operators(bool plain_gamma, Q4Geometry<T>& g) {
   g.px2 = half * g.y3;
   g.py2 = -(half * g.x3);
   g.area = T(2.0) * (g.py2 * g.px1 - g.py1 * g.px2);
+  g.inverse_area = one / g.area;
   g.hx = zero;
   g.hy = zero;
   g.gamma1 = one;
@@ -62,9 +63,8 @@ ABUT_INLINE void q4_operators(bool plain_gamma, Q4Geometry<T>& g) {
   g.gamma3 = one;
   g.gamma4 = -one;
   if (!plain_gamma) {
-    const T inverse_area = one / g.area;
-    g.hx = (g.x3 - g.x2 - g.x4) * inverse_area;
-    g.hy = (g.y3 - g.y2 - g.y4) * inverse_area;
+    g.hx = (g.x3 - g.x2 - g.x4) * g.inverse_area;
+    g.hy = (g.y3 - g.y2 - g.y4) * g.inverse_area;
     const T p1 = g.px1 * g.hx + g.py1 * g.hy, p2 = g.px2 * g.hx + g.py2 * g.hy;
     g.gamma1 -= p1;
     g.gamma2 -= p2;

@@ -116,13 +116,13 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   double* state = args.state + block * static_cast<std::size_t>(s.variables * shell_lanes) + lane;
   const double* constants = args.constants + block * (shell_constant::quad_count * shell_lanes) + lane;
   double* slots = args.slots + block * args.slot_stride + lane;
-  const T zero = T(0.0), one = T(1.0), two = T(2.0);
+  const T zero = T(0.0), two = T(2.0);
 
   const T regular = simd::NumberTraits<T>::load(constants + shell_constant::regular * shell_lanes);
   const T not_rigid = simd::NumberTraits<T>::load(constants + shell_constant::active * shell_lanes);
   const auto alive = (get<T>(state, shell_state::off) > zero) & (not_rigid > zero);
   const Q4Geometry<T>& g = motion.g;
-  const T inverse_area = one / g.area;
+  const T inverse_area = g.inverse_area;
   T vx13 = motion.vx13, vy13 = motion.vy13, vx24 = motion.vx24, vy24 = motion.vy24, vxh = motion.vxh, vyh = motion.vyh;
   const T vz13 = motion.vz13, vz24 = motion.vz24, vzh = motion.vzh;
   const T wx13 = motion.wx13, wy13 = motion.wy13, wx24 = motion.wx24, wy24 = motion.wy24;
@@ -204,27 +204,30 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const T msx = T(-0.25) * (ta * n.fyz + lift * hg.qy), msy = T(0.25) * (ta * n.fzx + lift * hg.qx);
 
   // scatter: into global axes, then per node
-  const Vec<T> f1 = f1x * g.e1 + f1y * g.e2 + f1z * g.e3, f2 = f2x * g.e1 + f2y * g.e2 + f2z * g.e3;
-  const Vec<T> fh = (n.off * hg.qx) * g.e1 + (n.off * hg.qy) * g.e2 + (n.off * hg.qz) * g.e3;
-  const Vec<T> m1 = m1x * g.e1 + m1y * g.e2, m2 = m2x * g.e1 + m2y * g.e2;
-  const Vec<T> ma = (msx + hg.mx) * g.e1 + (msy + hg.my) * g.e2, mb = (msx - hg.mx) * g.e1 + (msy - hg.my) * g.e2;
   const auto stays = alive & (n.off > zero);
   simd::NumberTraits<T>::store(args.steps + block * args.step_stride + static_cast<std::size_t>(lane), select(stays, step.step, T(1e30)));
   const T stiffness = select(stays, q.step_bound ? step.per_mass * mass : step.stiffness, zero);
   const T rotational = select(stays, q.step_bound ? step.per_mass * mass * inertia : step.rotational, zero);
-  const Vec<T> f[4] = {f1 + g.gamma1 * fh, f2 + g.gamma2 * fh, g.gamma3 * fh - f1, g.gamma4 * fh - f2};
-  const Vec<T> m[4] = {m1 + ma, m2 + mb, ma - m1, mb - m2};
   for (int i = 0; i < 4; ++i) {
-    double* slot = slots + i * 8 * shell_lanes;
-    q4_detail::store_slot(slot, 0, select(stays, f[i].x, zero));
-    q4_detail::store_slot(slot, 1, select(stays, f[i].y, zero));
-    q4_detail::store_slot(slot, 2, select(stays, f[i].z, zero));
-    q4_detail::store_slot(slot, 3, stiffness);
-    q4_detail::store_slot(slot, 4, select(stays, m[i].x, zero));
-    q4_detail::store_slot(slot, 5, select(stays, m[i].y, zero));
-    q4_detail::store_slot(slot, 6, select(stays, m[i].z, zero));
-    q4_detail::store_slot(slot, 7, rotational);
+    q4_detail::store_slot(slots + i * 8 * shell_lanes, 3, stiffness);
+    q4_detail::store_slot(slots + i * 8 * shell_lanes, 7, rotational);
   }
+  const T qx = n.off * hg.qx, qy = n.off * hg.qy, qz = n.off * hg.qz;
+  const T ax = msx + hg.mx, ay = msy + hg.my, bx = msx - hg.mx, by = msy - hg.my;
+  const auto scatter = [&](int component, T e1, T e2, T e3) __attribute__((always_inline)) {  // one at a time: few values are under way
+    const T f1 = f1x * e1 + f1y * e2 + f1z * e3, f2 = f2x * e1 + f2y * e2 + f2z * e3, fh = qx * e1 + qy * e2 + qz * e3;
+    const T m1 = m1x * e1 + m1y * e2, m2 = m2x * e1 + m2y * e2, ma = ax * e1 + ay * e2, mb = bx * e1 + by * e2;
+    const T f[4] = {f1 + g.gamma1 * fh, f2 + g.gamma2 * fh, g.gamma3 * fh - f1, g.gamma4 * fh - f2};
+    const T m[4] = {m1 + ma, m2 + mb, ma - m1, mb - m2};
+    for (int i = 0; i < 4; ++i) {
+      double* slot = slots + i * 8 * shell_lanes;
+      q4_detail::store_slot(slot, component, select(stays, f[i], zero));
+      q4_detail::store_slot(slot, 4 + component, select(stays, m[i], zero));
+    }
+  };
+  scatter(0, g.e1.x, g.e2.x, g.e3.x);
+  scatter(1, g.e1.y, g.e2.y, g.e3.y);
+  scatter(2, g.e1.z, g.e2.z, g.e3.z);
 }
 
 /// Blocks [begin, end). `damping`: sqrt(1 + dm^2) - dm, the factor of the reference's step.

@@ -50,7 +50,7 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
   const T two = T(2.0), four = T(4.0), zero = T(0.0), half = T(0.5);
   // One division for 1/mass and 1/(mass inertia).
   const T inverse_inertia = T(1.0) / (mass * inertia), inverse_mass = inverse_inertia * inertia;
-  const T a = g.area, a2 = a * a, inverse_area = T(1.0) / a;
+  const T a = g.area, a2 = a * a, inverse_area = g.inverse_area;
   const T trace = two * (g.px1 * g.px1 + g.py1 * g.py1 + g.px2 * g.px2 + g.py2 * g.py2);
   const T a11 = T(s.elastic.a11);
   const T t_per_am = t * inverse_mass * inverse_area;

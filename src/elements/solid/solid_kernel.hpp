@@ -120,7 +120,20 @@ struct PointResult {
   R density, inverse_length, length, compression, pressure, viscosity;
 };
 
-/// Stress update and energy of one material point: numerics.md 4.3, 4.5, 5.1, 5.2, 1.6.1.
+/// V^(-1/3) by a third-order iteration from the last value; the volume changes little in a step. A long chain: to be called early, where
+/// other work does not wait for it.
+template <class R>
+ABUT_INLINE void update_length(const SolidConfig& c, const Lanes<R>& state, R volume) {
+  if (c.small_strain) return;
+  R y = state.get(f_inverse_length);
+  for (int i = 0; i < 3; ++i) {
+    const R e = R(1.0) - volume * y * y * y;
+    y = y + y * e * (R(1.0 / 3.0) + R(2.0 / 9.0) * e);
+  }
+  state.put(f_inverse_length, y);
+}
+
+/// Stress update and energy of one material point, after update_length(): numerics.md 4.3, 4.5, 5.1, 5.2, 1.6.1.
 template <bool Corotational, class R>
 ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double inv_dt, const Lanes<R>& state, const PointInput<R>& in) {
   const R zero(0.0), one(1.0), half(0.5);
@@ -143,15 +156,7 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
     state.put(f_volume, in.volume);
   }
 
-  // V^(-1/3) by a third-order iteration from the last value; the volume changes little in a step.
-  R y = state.get(f_inverse_length);
-  if (!c.small_strain) {
-    for (int i = 0; i < 3; ++i) {
-      const R e = one - in.volume * y * y * y;
-      y = y + y * e * (R(1.0 / 3.0) + R(2.0 / 9.0) * e);
-    }
-    state.put(f_inverse_length, y);
-  }
+  const R y = state.get(f_inverse_length);
   out.inverse_length = y;
   out.length = in.volume * y * y;
 

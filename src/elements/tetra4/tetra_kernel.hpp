@@ -67,6 +67,7 @@ ABUT_INLINE void tetra_lanes(const SolidTask& task, std::int32_t block, int lane
       in.spin = in.spin - Vec<R>{step * quadratic.yz, step * quadratic.zx, step * quadratic.xy};
     }
   }
+  update_length(c, state, in.volume);
   const PointResult<R> point = update_point<false>(c, dt, inv_dt, state, in);
 
   // ---- stability
