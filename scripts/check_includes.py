@@ -19,7 +19,7 @@ STAGES = ["core", "simd", "parallel", "deck", "model", "materials", "elements", 
 # Header pattern -> the only folders (relative to the root) that may include it.
 RESERVED = [
     (re.compile(r"^mpi\.h$"), ("src/parallel/",), "MPI"),
-    (re.compile(r"^vtk\w*\.h$"), ("src/output/", "src/report/"), "VTK"),
+    (re.compile(r"^vtk\w*\.h$"), ("src/report/",), "VTK"),
     (re.compile(r"^CLI/"), ("apps/",), "CLI11"),
     (re.compile(r"^pybind11/"), ("bindings/",), "pybind11"),
 ]

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <span>
 #include <type_traits>
 
 #include "cycle/contact_area.hpp"
@@ -27,6 +29,14 @@ class Fnv {
     add(v.x);
     add(v.y);
     add(v.z);
+  }
+  /// By words, the last one filled with zeros.
+  void add(std::span<const std::byte> bytes) {
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+      add(word);
+    }
   }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
@@ -176,9 +186,9 @@ void Cycle::check_minimum_step(const elements::Group& group, const elements::Gro
 
 void Cycle::fill_contact_fields() {
   const std::size_t n = state_.mass.size();
-  contact_normal_.assign(n, {});
-  contact_tangential_.assign(n, {});
-  contact_area_.assign(n, 0.0);
+  contact_normal_ = state::ZeroArray<Vec3>(n);
+  contact_tangential_ = state::ZeroArray<Vec3>(n);
+  contact_area_ = state::ZeroArray<double>(n);
   contact_state_.assign(n, {});
   for (const init::RunInterface& i : interfaces_) {
     i.contact.add_nodal_forces(contact_normal_, contact_tangential_);
@@ -267,9 +277,7 @@ std::uint64_t Cycle::hash() {
       for (const double d : array) h.add(d);
     }
   }
-  for (const init::RunInterface& i : interfaces_) {
-    for (const std::byte byte : i.contact.history()) h.add(static_cast<std::uint64_t>(byte));
-  }
+  for (const init::RunInterface& i : interfaces_) { h.add(i.contact.history()); }
   return h.value();
 }
 

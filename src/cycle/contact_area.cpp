@@ -45,7 +45,6 @@ ContactArea::ContactArea(const model::Model& model, std::span<const init::RunInt
 }
 
 void ContactArea::write(std::span<const Vec3> x, std::span<const init::RunInterface> interfaces, std::span<double> area) const {
-  std::fill(area.begin(), area.end(), 0.0);
   std::size_t begin = 0;
   for (const Facet& facet : facets_) {
     const std::span<const Use> uses = std::span(uses_).subspan(begin, facet.uses_end - begin);

@@ -17,9 +17,9 @@ class ContactArea {
  public:
   ContactArea(const model::Model& model, std::span<const init::RunInterface> interfaces);
 
-  /// Per node a quarter (third) of each facet around it that is active in some interface; 0 elsewhere.
+  /// Adds to each node a quarter (third) of each facet around it that is active in some interface.
   /// @param x     #N by 3
-  /// @param area  #N, overwritten
+  /// @param area  #N
   void write(std::span<const Vec3> x, std::span<const init::RunInterface> interfaces, std::span<double> area) const;
 
  private:

@@ -36,12 +36,25 @@ double size_of(const contact::InspectionInput& input) {
   return size;
 }
 
-bool has_moved(std::span<const Index> nodes, std::span<const Vec3> seen, std::span<const Vec3> x, double limit) {
-  if (seen.size() != nodes.size()) return true;
+/// By more than `limit` since `seen`.
+bool has_moved(std::span<const Index> nodes, std::span<const std::array<float, 3>> seen, std::span<const Vec3> start,
+               std::span<const Vec3> x, double limit) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    if (squared_norm(x[static_cast<std::size_t>(nodes[k])] - seen[k]) > limit * limit) return true;
+    const auto n = static_cast<std::size_t>(nodes[k]);
+    const Vec3 then = seen.empty() ? Vec3{} : Vec3{seen[k][0], seen[k][1], seen[k][2]};
+    if (squared_norm((x[n] - start[n]) - then) > limit * limit) return true;
   }
   return false;
+}
+
+/// How far nodes are from where the model has them; empty when all are there.
+std::vector<std::array<float, 3>> moved(std::span<const Index> nodes, std::span<const Vec3> start, std::span<const Vec3> x) {
+  std::vector<std::array<float, 3>> out;
+  const auto by = [&](Index n) { return x[static_cast<std::size_t>(n)] - start[static_cast<std::size_t>(n)]; };
+  if (std::all_of(nodes.begin(), nodes.end(), [&](Index n) { return squared_norm(by(n)) == 0.0; })) return out;
+  out.reserve(nodes.size());
+  for (const Index n : nodes) out.push_back({static_cast<float>(by(n).x), static_cast<float>(by(n).y), static_cast<float>(by(n).z)});
+  return out;
 }
 
 }  // namespace
@@ -65,13 +78,13 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     Watched& w = interfaces_[i];
     if (w.limit == 0.0) continue;
-    if (!w.seen.empty() && (state.times.cycle < w.cycle + cycles_between || state.times.t < w.time + time_between_)) continue;
+    if (w.looked && (state.times.cycle < w.cycle + cycles_between || state.times.t < w.time + time_between_)) continue;
     const bool decided = !std::isnan(results[i].facing[0]) || !std::isnan(results[i].facing[1]);
     w.cycle = state.times.cycle;
     w.time = state.times.t;
-    if (decided && !has_moved(w.nodes, w.seen, x, w.limit)) continue;
-    w.seen.clear();
-    for (const Index n : w.nodes) w.seen.push_back(x[static_cast<std::size_t>(n)]);
+    if (w.looked && decided && !has_moved(w.nodes, w.seen, model_->node_x, x, w.limit)) continue;
+    w.looked = true;
+    w.seen = moved(w.nodes, model_->node_x, x);
     const init::InspectedInterface geometry(*model_, model_->interfaces[i], model_->node_x);
     contact::InspectionInput input = geometry.input(x);
     std::array<std::vector<std::int8_t>, 2> outward;
@@ -93,6 +106,7 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
 
 void ContactFacing::persist(state::Archive& a) {
   a.each(interfaces_, [&a](Watched& w) {
+    a(w.looked);
     a.growing(w.seen);
     a(w.cycle);
     a(w.time);

@@ -34,9 +34,10 @@ class ContactFacing {
     contact::FacingWatch watch;
     double limit = 0.0;        ///< motion that asks for another look; 0: TYPE7, whose normals do not matter
     std::vector<Index> nodes;  ///< of both surfaces, without repetition
-    std::vector<Vec3> seen;    ///< their positions at the last look; empty: none yet
-    std::int64_t cycle = 0;    ///< in which it was last asked whether a look is due
-    double time = 0.0;         ///< the same
+    bool looked = false;
+    std::vector<std::array<float, 3>> seen;  ///< how far they were at the last look from where the model has them; empty: nowhere else
+    std::int64_t cycle = 0;                  ///< in which it was last asked whether a look is due
+    double time = 0.0;                       ///< the same
   };
   double time_between_ = 0.0;
   const model::Model* model_ = nullptr;

@@ -111,13 +111,13 @@ class Cycle {
   int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;
-  std::vector<bool> recording_;                            // #recordings: begun
-  std::vector<double> contact_stiffness_;                  // #N
-  std::vector<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
+  std::vector<bool> recording_;                                 // #recordings: begun
+  state::ZeroArray<double> contact_stiffness_;                  // #N
+  state::ZeroArray<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
   ContactMobility contact_mobility_;
   ContactFacing contact_facing_;
   ContactThickness contact_thickness_;
-  std::vector<double> contact_area_;
+  state::ZeroArray<double> contact_area_;
   std::vector<contact::NodalContact> contact_state_;
   std::vector<Vec3> option_force_, option_moment_;  // #N when an animation is due and there are such options
   bool releases_ = false;                           // some interface asks for IBC

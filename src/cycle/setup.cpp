@@ -1,5 +1,6 @@
 // Construction of a Cycle: everything that happens once.
 #include <algorithm>
+#include <type_traits>
 #include <variant>
 
 #include "cycle/cycle.hpp"
@@ -36,7 +37,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       accelerometers_(model, axes_) {
   const auto n = static_cast<std::size_t>(model.node_count());
   recording_.assign(options.recordings.size(), false);
-  contact_stiffness_.assign(n, 0.0);
+  contact_stiffness_.resize(n);
   parts_.resize(model.parts.size());
   interface_results_.resize(model.interfaces.size());
 
@@ -47,8 +48,13 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   if (!options.profile.reference_contact) contact_mobility_ = ContactMobility(model, interfaces_, boundary_);
   // The reference program keeps the stiffness of the start.
   if (!options.profile.reference_contact) contact_thickness_ = ContactThickness(model, groups_, interfaces_);
+  const auto release = [](auto&... values) { (std::remove_reference_t<decltype(values)>().swap(values), ...); };  // = {} keeps the memory
   for (init::RunInterface& i : interfaces_) {
-    for (init::RunInterface::Side& side : i.sides) std::vector<model::ElementRef>().swap(side.shell);  // nobody else asks for them
+    // Nobody else asks for them: the interface has its stiffness and thickness, and without Idel its nodes stay.
+    for (init::RunInterface::Side& side : i.sides) {
+      release(side.shell, side.stiffness, side.thickness, side.shares);
+      if (model.interfaces[static_cast<std::size_t>(i.model_index)].idel == 0) release(side.nodes);
+    }
   }
   if (options.interfaces) contact_facing_ = ContactFacing(model);
 

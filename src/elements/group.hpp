@@ -17,6 +17,7 @@
 #include "abut/vec3.hpp"
 #include "core/profile.hpp"
 #include "elements/chunks.hpp"
+#include "elements/few_values.hpp"
 #include "model/model.hpp"
 #include "parallel/thread_pool.hpp"
 
@@ -173,7 +174,7 @@ class Group {
   /// the next, because there are fewer nodes than corners.
   struct NodalShares {
     bool valid = false;
-    std::vector<double> mass, inertia;
+    FewValues mass, inertia;
     std::vector<PartSums> leaves;
     [[nodiscard]] PartSums sums(const ChunkTable& chunks, std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool);
   };

@@ -24,8 +24,9 @@ struct RunInterface {
   contact::Interface contact;
   /// Per side (0 first, 1 second) and facet: own stiffness, activity, and the elements that contain the facet (Idel).
   struct Side {
-    std::vector<double> stiffness;         ///< of held nodes without a surface: of TYPE5, of TYPE7 once shells have become thinner
-    std::vector<double> thickness;         ///< of facets or held nodes; empty without a gap from thickness
+    std::vector<double> stiffness;  ///< what is not given again (empty) stays; of held nodes without a surface: of TYPE5, of TYPE7 once
+                                    ///< shells have become thinner
+    std::vector<double> thickness;  ///< of facets or held nodes; empty without a gap from thickness
     std::vector<model::ElementRef> shell;  ///< behind each facet; none of a solid
     std::vector<NodeShare> shares;         ///< of the held nodes of TYPE5 and TYPE7
     std::vector<std::uint8_t> active;

@@ -65,7 +65,8 @@ struct Reading {
     out.id.reserve(n);
     out.part.reserve(n);
     out.nodes.reserve(n);
-    out.thickness.reserve(n);
+    const bool own = std::any_of(elements.thickness.begin(), elements.thickness.end(), [](double t) { return t != 0.0; });
+    if (own) out.thickness.reserve(n);
     table.reserve(n);
     std::size_t first = 0;
     for (const std::size_t k : ascending_order(elements.id)) {
@@ -78,7 +79,7 @@ struct Reading {
       out.id.push_back(elements.id[k]);
       out.part.push_back(elements.part[k]);
       out.nodes.push_back(elements.nodes[k]);
-      out.thickness.push_back(elements.thickness[k]);
+      if (own) out.thickness.push_back(elements.thickness[k]);
     }
   }
 };

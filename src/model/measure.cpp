@@ -45,14 +45,14 @@ double part_young(const Model& m, Index part) {
 double shell_mass(const Model& m, Index shell) {
   const auto k = static_cast<std::size_t>(shell);
   const Index part = m.shells.part[k];
-  return part_density(m, part) * shell_thickness(m, part, m.shells.thickness[k]) * norm(face_area(m, m.shells.nodes[k]));
+  return part_density(m, part) * shell_thickness(m, part, m.shells.own_thickness(k)) * norm(face_area(m, m.shells.nodes[k]));
 }
 
 double sh3n_mass(const Model& m, Index sh3n) {
   const auto k = static_cast<std::size_t>(sh3n);
   const auto& n = m.sh3ns.nodes[k];
   const Index part = m.sh3ns.part[k];
-  return part_density(m, part) * shell_thickness(m, part, m.sh3ns.thickness[k]) * norm(face_area(m, {n[0], n[1], n[2], n[2]}));
+  return part_density(m, part) * shell_thickness(m, part, m.sh3ns.own_thickness(k)) * norm(face_area(m, {n[0], n[1], n[2], n[2]}));
 }
 
 double brick_volume(const Model& m, Index brick) {

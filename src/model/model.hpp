@@ -88,7 +88,7 @@ struct Part {
 
 // ---- mesh ---------------------------------------------------------------------------------------------------------
 
-/// #E elements of N nodes. `thickness` (shells only): 0 = use the property's.
+/// #E elements of N nodes. `thickness` (shells only): 0 = use the property's; empty: of all.
 template <std::size_t N>
 struct Elements {
   std::vector<Id> id;
@@ -96,6 +96,7 @@ struct Elements {
   std::vector<std::array<Index, N>> nodes;
   std::vector<double> thickness;
   [[nodiscard]] Index size() const { return static_cast<Index>(id.size()); }
+  [[nodiscard]] double own_thickness(std::size_t e) const { return thickness.empty() ? 0.0 : thickness[e]; }
 };
 
 using abut::ElementKind;

@@ -206,12 +206,12 @@ ElementRef NodeElements::behind(const Model& m, const std::array<Index, 4>& segm
   };
   for (const Index e : shells_.at(segment[0])) {
     const auto i = static_cast<std::size_t>(e);
-    offer({ElementKind::shell4, e}, distinct(m.shells.nodes[i]), m.shells.part[i], m.shells.thickness[i]);
+    offer({ElementKind::shell4, e}, distinct(m.shells.nodes[i]), m.shells.part[i], m.shells.own_thickness(i));
   }
   for (const Index e : sh3ns_.at(segment[0])) {
     const auto i = static_cast<std::size_t>(e);
     const auto& n = m.sh3ns.nodes[i];
-    offer({ElementKind::shell3, e}, distinct({n[0], n[1], n[2], n[2]}), m.sh3ns.part[i], m.sh3ns.thickness[i]);
+    offer({ElementKind::shell3, e}, distinct({n[0], n[1], n[2], n[2]}), m.sh3ns.part[i], m.sh3ns.own_thickness(i));
   }
   return best;
 }

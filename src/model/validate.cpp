@@ -73,7 +73,7 @@ class Validator {
       for (std::size_t i = 0; i < elements.id.size(); ++i) {
         const Index part = elements.part[i];
         if (part == no_index || part_young(m_, part) == 0.0) continue;  // a void skin may have no thickness
-        if (shell_thickness(m_, part, elements.thickness[i]) <= 0.0) thin[part].push_back(elements.id[i]);
+        if (shell_thickness(m_, part, elements.own_thickness(i)) <= 0.0) thin[part].push_back(elements.id[i]);
       }
     };
     check(m_.shells);
@@ -147,9 +147,9 @@ class Validator {
       case ElementKind::none:
         return false;
       case ElementKind::shell4:
-        return part_young(m_, m_.shells.part[k]) > 0.0 && shell_thickness(m_, m_.shells.part[k], m_.shells.thickness[k]) > 0.0;
+        return part_young(m_, m_.shells.part[k]) > 0.0 && shell_thickness(m_, m_.shells.part[k], m_.shells.own_thickness(k)) > 0.0;
       case ElementKind::shell3:
-        return part_young(m_, m_.sh3ns.part[k]) > 0.0 && shell_thickness(m_, m_.sh3ns.part[k], m_.sh3ns.thickness[k]) > 0.0;
+        return part_young(m_, m_.sh3ns.part[k]) > 0.0 && shell_thickness(m_, m_.sh3ns.part[k], m_.sh3ns.own_thickness(k)) > 0.0;
       case ElementKind::brick:
         return part_young(m_, m_.bricks.part[k]) > 0.0;
       case ElementKind::tetra:

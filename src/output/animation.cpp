@@ -1,24 +1,10 @@
 #include "output/animation.hpp"
 
 #include <fmt/format.h>
-#include <vtkAbstractArray.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkIdTypeArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <set>
 #include <system_error>
@@ -27,31 +13,13 @@
 #include "core/diagnostic.hpp"
 #include "output/animation_fields.hpp"
 #include "output/cell_shape.hpp"
+#include "output/column.hpp"
 #include "output/contact_surfaces.hpp"
 #include "output/element_lookup.hpp"
+#include "output/vtu.hpp"
 
 namespace abut::output {
 namespace {
-
-constexpr std::array<const char*, 6> tensor_components{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-
-int vtk_type(CellKind kind) {
-  switch (kind) {
-    case CellKind::triangle:
-      return VTK_TRIANGLE;
-    case CellKind::quadrilateral:
-      return VTK_QUAD;
-    case CellKind::tetrahedron:
-      return VTK_TETRA;
-    case CellKind::wedge:
-      return VTK_WEDGE;
-    case CellKind::pyramid:
-      return VTK_PYRAMID;
-    case CellKind::hexahedron:
-      return VTK_HEXAHEDRON;
-  }
-  return VTK_EMPTY_CELL;
-}
 
 /// Single precision without overflow to infinity: a diverging run stays viewable.
 float to_float(double value) {
@@ -82,151 +50,217 @@ std::string xml_escaped(const std::string& text) {
   return result;
 }
 
-template <typename Array>
-Array* add_array(vtkDataSetAttributes* attributes, const std::string& name, int components, vtkIdType tuples) {
-  vtkNew<Array> array;
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  if (components == 6) {
-    for (int c = 0; c < 6; ++c) array->SetComponentName(c, tensor_components[static_cast<std::size_t>(c)]);
+struct NamedColumn {
+  std::string name;
+  Column<float> values;
+};
+
+/// Calls visit(kind, table, index in it) for all elements in the order of the cells.
+template <class Visit>
+void each_element(const model::Model& model, Visit&& visit) {
+  const auto table = [&visit](const auto& elements, model::ElementKind kind) {
+    for (std::size_t e = 0; e < elements.id.size(); ++e) visit(kind, elements, e);
+  };
+  table(model.shells, model::ElementKind::shell4);
+  table(model.sh3ns, model::ElementKind::shell3);
+  table(model.bricks, model::ElementKind::brick);
+  table(model.tetras, model::ElementKind::tetra);
+}
+
+CellShape shape_of(const model::Model& model, model::ElementKind kind, std::size_t e) {
+  switch (kind) {
+    case model::ElementKind::shell4: {
+      const std::array<Index, 4>& n = model.shells.nodes[e];
+      if (n[2] == n[3]) return {CellKind::triangle, {n[0], n[1], n[2]}, 3};
+      return {CellKind::quadrilateral, {n[0], n[1], n[2], n[3]}, 4};
+    }
+    case model::ElementKind::shell3: {
+      const std::array<Index, 3>& n = model.sh3ns.nodes[e];
+      return {CellKind::triangle, {n[0], n[1], n[2]}, 3};
+    }
+    case model::ElementKind::brick:
+      return brick_shape(model.bricks.nodes[e], model.node_x);
+    default:
+      return tetra_shape(model.tetras.nodes[e], model.node_x);
   }
-  attributes->AddArray(array);
-  return array;
 }
 
 }  // namespace
 
-/// One state, as VTK takes it. It lives until it is written: states are rare and the grid takes as much memory as the run.
-struct Animation::Grid {
-  explicit Grid(const cycle::Snapshot& first);
-  void take(const cycle::Snapshot& now);
-  /// The state that was taken, as the content of a file.
-  [[nodiscard]] std::string encoded() const;
+/// What a state has that the model does not: it lives until it is written.
+struct Animation::Taken {
+  explicit Taken(const cycle::Snapshot& now);
+  /// The state as a grid. Values go with the arrays.
+  [[nodiscard]] static VtuGrid grid(std::unique_ptr<Taken> taken);
 
  private:
-  void fill_points(const cycle::Snapshot& now);
-  void fill_cells(const cycle::Snapshot& now);
+  void take_nodes(const cycle::Snapshot& now, const std::vector<NodeField>& fields);
+  void take_cells(const cycle::Snapshot& now, const std::vector<CellField>& fields);
 
-  AnimationFields fields_;
-  vtkNew<vtkUnstructuredGrid> grid_;
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkDoubleArray> time_;
-  vtkNew<vtkIdTypeArray> cycle_;
+  const model::Model* model_;
+  double time_;
+  std::int64_t cycle_;
+  std::vector<Vec3> x_;  ///< empty: where the model has them
+  std::vector<NamedColumn> nodes_, cells_;
+  struct Cell {
+    model::ElementKind kind;
+    Index element;
+  };
+  std::vector<Cell> left_;  ///< the cells, where some elements are deleted
+  bool all_there_ = true;
+  std::size_t count_ = 0;  ///< of cells
+
+  [[nodiscard]] Cell cell(std::size_t c) const;
 };
 
-Animation::Grid::Grid(const cycle::Snapshot& first) : fields_(select_animation_fields(first.model->controls.animation_fields)) {
-  points_->SetDataTypeToDouble();
-  points_->SetNumberOfPoints(first.model->node_count());
-  grid_->SetPoints(points_);
-  time_->SetName("TimeValue");
-  time_->SetNumberOfTuples(1);
-  cycle_->SetName("cycle");
-  cycle_->SetNumberOfTuples(1);
-  grid_->GetFieldData()->AddArray(time_);
-  grid_->GetFieldData()->AddArray(cycle_);
+Animation::Taken::Taken(const cycle::Snapshot& now) : model_(now.model), time_(now.state->times.t), cycle_(now.state->times.cycle) {
+  const AnimationFields fields = select_animation_fields(now.model->controls.animation_fields);
+  const auto& x = now.state->x;
+  // At the start nothing has moved.
+  if (x.size() != model_->node_x.size() || std::memcmp(x.data(), model_->node_x.data(), x.size() * sizeof(Vec3)) != 0) {
+    x_.assign(x.begin(), x.end());
+  }
+  take_nodes(now, fields.nodes);
+  take_cells(now, fields.cells);
 }
 
-void Animation::Grid::fill_points(const cycle::Snapshot& now) {
-  const std::size_t count = now.state->x.size();
-  const auto tuples = static_cast<vtkIdType>(count);
+void Animation::Taken::take_nodes(const cycle::Snapshot& now, const std::vector<NodeField>& fields) {
   std::array<double, 9> value{};
-  for (std::size_t n = 0; n < count; ++n) {
-    const Vec3& x = now.state->x[n];
-    points_->SetPoint(static_cast<vtkIdType>(n), x.x, x.y, x.z);
-  }
-  auto* node_id = add_array<vtkIdTypeArray>(grid_->GetPointData(), "node_id", 1, tuples);
-  std::copy(now.model->node_id.begin(), now.model->node_id.end(), node_id->GetPointer(0));
-  for (const NodeField& field : fields_.nodes) {
-    const auto components = static_cast<std::size_t>(field.components);
-    float* out = add_array<vtkFloatArray>(grid_->GetPointData(), field.name, field.components, tuples)->GetPointer(0);
-    for (std::size_t n = 0; n < count; ++n) {
+  std::array<float, 9> rounded{};
+  for (const NodeField& field : fields) {
+    Column<float> column(field.components);
+    for (std::size_t n = 0; n < now.state->x.size(); ++n) {
       field.write(now, n, value.data());
-      for (std::size_t c = 0; c < components; ++c) *out++ = to_float(value[c]);
+      std::transform(value.begin(), value.begin() + field.components, rounded.begin(), to_float);
+      column.add(rounded.data());
     }
+    column.finish();
+    nodes_.push_back({field.name, std::move(column)});
   }
 }
 
-void Animation::Grid::fill_cells(const cycle::Snapshot& now) {
-  const model::Model& model = *now.model;
-  const std::span<const Vec3> x = model.node_x;
-  const ElementLookup lookup(model, now.groups);
-  const std::size_t all = model.shells.id.size() + model.sh3ns.id.size() + model.bricks.id.size() + model.tetras.id.size();
-  const auto count = static_cast<vtkIdType>(all);
-  auto* element_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "element_id", 1, count);
-  auto* part_id = add_array<vtkIdTypeArray>(grid_->GetCellData(), "part_id", 1, count);
-  std::vector<vtkFloatArray*> arrays;
-  for (const CellField& field : fields_.cells) {
-    arrays.push_back(add_array<vtkFloatArray>(grid_->GetCellData(), field.name, field.components, count));
-  }
-  vtkNew<vtkUnsignedCharArray> types;
-  types->Allocate(count);
-  vtkNew<vtkCellArray> cells;
-  cells->Use32BitStorage();  // nodes have 32-bit indices
-  cells->AllocateExact(count, 4 * (count + static_cast<vtkIdType>(model.bricks.id.size())));
-
-  vtkIdType shown = 0;
-  std::array<double, 9> value{};
-  const auto add_table = [&](const auto& table, model::ElementKind kind, const auto& shape_of) {
-    for (std::size_t e = 0; e < table.id.size(); ++e) {
-      ElementSample sample;
-      if (const ElementPlace place = lookup.find(kind, static_cast<Index>(e)); place.exists()) {
-        const elements::Group& group = *now.groups[static_cast<std::size_t>(place.group)];
-        sample.output = group.output(place.element);
-        sample.mass = group.element_mass(place.element);
-        sample.group = &group;
-        sample.element = place.element;
-        sample.state = now.state;
-      }
-      if (sample.output.off == 0.0) continue;
-      const CellShape shape = shape_of(table.nodes[e]);
-      std::array<vtkIdType, 8> corners{};
-      std::copy(shape.nodes.begin(), shape.nodes.end(), corners.begin());
-      cells->InsertNextCell(shape.count, corners.data());
-      types->InsertNextValue(static_cast<unsigned char>(vtk_type(shape.kind)));
-      element_id->SetValue(shown, table.id[e]);
-      part_id->SetValue(shown, model.parts[static_cast<std::size_t>(table.part[e])].id);
-      for (std::size_t f = 0; f < fields_.cells.size(); ++f) {
-        const int components = fields_.cells[f].components;
-        fields_.cells[f].write(sample, value.data());
-        float* out = arrays[f]->GetPointer(shown * components);
-        for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) out[c] = to_float(value[c]);
-      }
-      ++shown;
-    }
+void Animation::Taken::take_cells(const cycle::Snapshot& now, const std::vector<CellField>& fields) {
+  const ElementLookup lookup(*model_, now.groups);
+  for (const CellField& field : fields) cells_.push_back({field.name, Column<float>(field.components)});
+  const auto is_there = [&](const ElementPlace& place) {
+    return !place.exists() || now.groups[static_cast<std::size_t>(place.group)]->active(place.element);
   };
-  add_table(model.shells, model::ElementKind::shell4, [](const std::array<Index, 4>& n) {
-    if (n[2] == n[3]) return CellShape{CellKind::triangle, {n[0], n[1], n[2]}, 3};
-    return CellShape{CellKind::quadrilateral, {n[0], n[1], n[2], n[3]}, 4};
+  each_element(*model_, [&](model::ElementKind kind, const auto&, std::size_t e) {
+    all_there_ = all_there_ && is_there(lookup.find(kind, static_cast<Index>(e)));
   });
-  add_table(model.sh3ns, model::ElementKind::shell3, [](const std::array<Index, 3>& n) {
-    return CellShape{CellKind::triangle, {n[0], n[1], n[2]}, 3};
+  std::array<double, 9> value{};
+  std::array<float, 9> rounded{};
+  each_element(*model_, [&](model::ElementKind kind, const auto&, std::size_t e) {
+    const ElementPlace place = lookup.find(kind, static_cast<Index>(e));
+    if (!is_there(place)) return;
+    ElementSample sample;
+    if (place.exists()) {
+      const elements::Group& group = *now.groups[static_cast<std::size_t>(place.group)];
+      sample.output = group.output(place.element);
+      sample.mass = group.element_mass(place.element);
+      sample.group = &group;
+      sample.element = place.element;
+      sample.state = now.state;
+    }
+    if (!all_there_) left_.push_back({kind, static_cast<Index>(e)});
+    ++count_;
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      fields[f].write(sample, value.data());
+      std::transform(value.begin(), value.begin() + fields[f].components, rounded.begin(), to_float);
+      cells_[f].values.add(rounded.data());
+    }
   });
-  add_table(model.bricks, model::ElementKind::brick, [x](const std::array<Index, 8>& n) { return brick_shape(n, x); });
-  add_table(model.tetras, model::ElementKind::tetra, [x](const std::array<Index, 4>& n) { return tetra_shape(n, x); });
-
-  for (vtkIdTypeArray* ids : {element_id, part_id}) ids->SetNumberOfTuples(shown);
-  for (vtkFloatArray* array : arrays) array->SetNumberOfTuples(shown);
-  grid_->SetCells(types, cells);
+  for (NamedColumn& column : cells_) column.values.finish();
 }
 
-void Animation::Grid::take(const cycle::Snapshot& now) {
-  time_->SetValue(0, now.state->times.t);
-  cycle_->SetValue(0, now.state->times.cycle);
-  fill_points(now);
-  fill_cells(now);
+Animation::Taken::Cell Animation::Taken::cell(std::size_t c) const {
+  if (!all_there_) return left_[c];
+  std::size_t before = 0;
+  Cell found{model::ElementKind::none, no_index};
+  const auto look = [&](std::size_t size, model::ElementKind kind) {
+    if (found.element == no_index && c < before + size) found = {kind, static_cast<Index>(c - before)};
+    before += size;
+  };
+  look(model_->shells.id.size(), model::ElementKind::shell4);
+  look(model_->sh3ns.id.size(), model::ElementKind::shell3);
+  look(model_->bricks.id.size(), model::ElementKind::brick);
+  look(model_->tetras.id.size(), model::ElementKind::tetra);
+  return found;
 }
 
-std::string Animation::Grid::encoded() const {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(grid_);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetHeaderTypeToUInt64();
-  writer->WriteToOutputStringOn();
-  if (writer->Write() == 0) throw RunError(fmt::format("cannot encode the animation state at time {}", time_->GetValue(0)));
-  return writer->GetOutputString();
+VtuGrid Animation::Taken::grid(std::unique_ptr<Taken> taken) {
+  using Type = VtuArray::Type;
+  VtuGrid grid;
+  const std::shared_ptr<Taken> t = std::move(taken);
+  const model::Model& model = *t->model_;
+  const std::size_t points = model.node_x.size(), cells = t->count_;
+  grid.field_data = {VtuArray::of<double>("TimeValue", Type::float64, 1, 1, [time = t->time_](std::size_t) { return time; }),
+                     VtuArray::of<std::int64_t>("cycle", Type::int64, 1, 1, [cycle = t->cycle_](std::size_t) { return cycle; })};
+  const auto add = [](std::vector<VtuArray>& to, std::vector<NamedColumn>& columns) {
+    for (NamedColumn& column : columns) {
+      const auto values = std::make_shared<const Column<float>>(std::move(column.values));
+      to.push_back(VtuArray::of<float>(column.name, Type::float32, values->components(), values->tuples(),
+                                       [values](std::size_t i) { return values->value(i); }));
+      if (values->components() == 6) to.back().component_names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+    }
+    columns.clear();
+  };
+  grid.point_data = {VtuArray::of<std::int64_t>("node_id", Type::int64, 1, points, [&model](std::size_t n) { return model.node_id[n]; })};
+  add(grid.point_data, t->nodes_);
+  const auto with = [&model](const Cell& cell, const auto& use) {
+    const auto e = static_cast<std::size_t>(cell.element);
+    if (cell.kind == model::ElementKind::shell4) return use(model.shells, e);
+    if (cell.kind == model::ElementKind::shell3) return use(model.sh3ns, e);
+    if (cell.kind == model::ElementKind::brick) return use(model.bricks, e);
+    return use(model.tetras, e);
+  };
+  grid.cell_data = {VtuArray::of<std::int64_t>("element_id", Type::int64, 1, cells,
+                                               [t, with](std::size_t c) {
+                                                 return with(t->cell(c), [](const auto& table, std::size_t e) { return table.id[e]; });
+                                               }),
+                    VtuArray::of<std::int64_t>("part_id", Type::int64, 1, cells, [t, with, &model](std::size_t c) {
+                      const Index part = with(t->cell(c), [](const auto& table, std::size_t e) { return table.part[e]; });
+                      return model.parts[static_cast<std::size_t>(part)].id;
+                    })};
+  add(grid.cell_data, t->cells_);
+  const auto x = std::make_shared<const std::vector<Vec3>>(std::move(t->x_));
+  grid.points = VtuArray::of<double>("Points", Type::float64, 3, points, [x, &model](std::size_t i) {
+    const Vec3& at = (x->empty() ? model.node_x : *x)[i / 3];
+    return i % 3 == 0 ? at.x : (i % 3 == 1 ? at.y : at.z);
+  });
+
+  const auto shape = [t, &model](std::size_t c) {
+    const Cell cell = t->cell(c);
+    return shape_of(model, cell.kind, static_cast<std::size_t>(cell.element));
+  };
+  struct Kind {
+    std::uint8_t number, corners;
+  };
+  std::vector<Kind> all;
+  all.reserve(cells);
+  std::size_t corners = 0;
+  for (std::size_t c = 0; c < cells; ++c) {
+    const CellShape s = shape(c);
+    all.push_back({vtk_number(s.kind), static_cast<std::uint8_t>(s.count)});
+    corners += static_cast<std::size_t>(s.count);
+  }
+  const auto kinds = std::make_shared<const std::vector<Kind>>(std::move(all));
+  grid.connectivity = {
+      "connectivity", Type::int32, 1, corners,
+      [shape, c = std::size_t{0}, corner = 0, now = CellShape{CellKind::triangle, {}, 0}](std::size_t count, void* to) mutable {
+        auto* out = static_cast<std::int32_t*>(to);
+        for (std::size_t i = 0; i < count; ++i) {
+          if (corner == now.count) {
+            now = shape(c++);
+            corner = 0;
+          }
+          out[i] = now.nodes[static_cast<std::size_t>(corner++)];
+        }
+      }};
+  grid.offsets = VtuArray::of<std::int64_t>("offsets", Type::int64, 1, cells,
+                                            [kinds, end = std::int64_t{0}](std::size_t c) mutable { return end += (*kinds)[c].corners; });
+  grid.types = VtuArray::of<std::uint8_t>("types", Type::uint8, 1, cells, [kinds](std::size_t c) { return (*kinds)[c].number; });
+  return grid;
 }
 
 Animation::Animation(RunFolder folder, Opening opening) : folder_(std::move(folder)), opening_(opening) {}
@@ -254,15 +288,12 @@ void Animation::cycle(const cycle::Snapshot& now) {
   if (times_.empty()) create_folder(folder_.animation_folder());
   wait_for_writer();
   const model::Model* with_surfaces = times_.empty() && !now.model->interfaces.empty() ? now.model : nullptr;
-  auto grid = std::make_unique<Grid>(now);
-  grid->take(now);
+  auto taken = std::make_unique<Taken>(now);
   times_.push_back(now.state->times.t);
-  writer_ = std::async(std::launch::async, [this, with_surfaces, taken = std::move(grid), times = times_]() mutable {
-              std::unique_ptr<Grid> grid = std::move(taken);
-              write_atomically(folder_.animation_state(static_cast<int>(times.size()) - 1), grid->encoded());
-              grid.reset();  // as large as the contact surfaces: never both at a time
+  writer_ = std::async(std::launch::async, [this, with_surfaces, state = std::move(taken), times = times_]() mutable {
+              write_vtu(folder_.animation_state(static_cast<int>(times.size()) - 1), Taken::grid(std::move(state)));
               write_index(times);
-              if (with_surfaces != nullptr) write_atomically(folder_.contact_surfaces(), contact_surfaces_vtu(*with_surfaces));
+              if (with_surfaces != nullptr) write_vtu(folder_.contact_surfaces(), contact_surfaces(*with_surfaces));
             }).share();
 }
 

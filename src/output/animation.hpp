@@ -36,7 +36,7 @@ class Animation final : public cycle::Sink {
   void write_index(const std::vector<double>& times) const;
   void wait_for_writer();
 
-  struct Grid;
+  struct Taken;
   RunFolder folder_;
   Opening opening_;
   std::size_t on_disk_ = 0;          ///< states that a checkpoint has brought to the disk

@@ -91,6 +91,11 @@ bool make_pyramid(const std::array<Index, 8>& nodes, const Face& distinct, std::
 
 }  // namespace
 
+std::uint8_t vtk_number(CellKind kind) {
+  constexpr std::array<std::uint8_t, 6> numbers{5, 9, 10, 13, 14, 12};
+  return numbers[static_cast<std::size_t>(kind)];
+}
+
 CellShape tetra_shape(const std::array<Index, 4>& nodes, std::span<const Vec3> x) {
   CellShape shape;
   shape.kind = CellKind::tetrahedron;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "abut/types.hpp"
@@ -10,6 +11,9 @@
 namespace abut::output {
 
 enum class CellKind { triangle, quadrilateral, tetrahedron, wedge, pyramid, hexahedron };
+
+/// VTK's number of a kind of cell (vtkCellType.h).
+[[nodiscard]] std::uint8_t vtk_number(CellKind kind);
 
 struct CellShape {
   CellKind kind = CellKind::hexahedron;

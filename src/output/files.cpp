@@ -53,17 +53,45 @@ std::filesystem::path temporary_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path temporary = temporary_of(path);
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
-  if (descriptor < 0) fail("write", path, errno);
-  int error = write_all(descriptor, content);
-  if (::close(descriptor) != 0 && error == 0) error = errno;
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+PendingFile::PendingFile(std::filesystem::path path) : path_(std::move(path)), temporary_(temporary_of(path_)) {
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
+  if (descriptor_ < 0) fail("write", path_, errno);
+}
+
+PendingFile::~PendingFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(temporary_.c_str());
+}
+
+void PendingFile::write(std::string_view piece) {
+  if (const int error = write_all(descriptor_, piece); error != 0) fail("write", path_, error);
+}
+
+void AtomicFile::write(std::string_view piece) {
+  PendingFile::write(piece);
+  size_ += piece.size();
+}
+
+void AtomicFile::write_at(std::uint64_t position, std::string_view piece) {
+  int error = ::lseek(descriptor_, static_cast<off_t>(position), SEEK_SET) < 0 ? errno : write_all(descriptor_, piece);
+  if (error == 0 && ::lseek(descriptor_, 0, SEEK_END) < 0) error = errno;
+  if (error != 0) fail("write", path_, error);
+}
+
+void AtomicFile::finish() {
+  int error = ::close(std::exchange(descriptor_, -1)) != 0 ? errno : 0;
+  if (error == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) error = errno;
   if (error != 0) {
-    ::unlink(temporary.c_str());
-    fail("write", path, error);
+    ::unlink(temporary_.c_str());
+    fail("write", path_, error);
   }
+}
+
+void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  AtomicFile file(path);
+  file.write(content);
+  file.finish();
 }
 
 void sync_file(const std::filesystem::path& path) {
@@ -73,23 +101,6 @@ void sync_file(const std::filesystem::path& path) {
   ::close(descriptor);
   if (error == EINVAL) error = 0;  // a file system that cannot: nothing more can be done
   if (error != 0) fail("write", path, error);
-}
-
-DurableFile::DurableFile(std::filesystem::path path) : path_(std::move(path)), temporary_(temporary_of(path_)) {
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, open_mode);
-  if (descriptor_ < 0) fail("write", path_, errno);
-}
-
-DurableFile::~DurableFile() {
-  if (descriptor_ < 0) return;
-  ::close(descriptor_);
-  ::unlink(temporary_.c_str());
-}
-
-void DurableFile::write(std::span<const std::byte> piece) {
-  if (const int error = write_all(descriptor_, {reinterpret_cast<const char*>(piece.data()), piece.size()}); error != 0) {
-    fail("write", path_, error);
-  }
 }
 
 void DurableFile::replace(const std::filesystem::path& previous) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "state/archive.hpp"
@@ -40,6 +41,40 @@ struct RunFolder {
 /// Creates a folder and those above it. @throws RunError when it cannot be made or its path is not a folder
 void create_folder(const std::filesystem::path& folder);
 
+/// A file under a temporary name beside its place, for those who put it there.
+class PendingFile {
+ public:
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  void write(std::string_view piece);  ///< @throws RunError
+
+ protected:
+  std::filesystem::path path_, temporary_;
+  int descriptor_ = -1;
+
+  /// @throws RunError
+  explicit PendingFile(std::filesystem::path path);
+  ~PendingFile();  ///< what was not put into its place is gone
+};
+
+/// A file that is written in pieces and renamed at the end: readers see the old content or the new.
+class AtomicFile : public PendingFile {
+ public:
+  /// @throws RunError
+  explicit AtomicFile(std::filesystem::path path) : PendingFile(std::move(path)) {}
+
+  void write(std::string_view piece);  ///< @throws RunError
+  /// Over what is there: as long as that. @throws RunError
+  void write_at(std::uint64_t position, std::string_view piece);
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  /// Once, at the end. @throws RunError
+  void finish();
+
+ private:
+  std::uint64_t size_ = 0;
+};
+
 /// Writes a file under a temporary name beside `path` and renames it: readers see the old content or the new, never a
 /// part of it, also when the process is killed. @throws RunError; the temporary file is gone then
 void write_atomically(const std::filesystem::path& path, std::string_view content);
@@ -48,23 +83,14 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 void sync_file(const std::filesystem::path& path);
 
 /// A file that is written in pieces beside its place, and survives the machine once it is in it.
-class DurableFile {
+class DurableFile : public PendingFile {
  public:
   /// @throws RunError
-  explicit DurableFile(std::filesystem::path path);
-  ~DurableFile();  ///< what was not put into its place is gone
-  DurableFile(const DurableFile&) = delete;
-  DurableFile& operator=(const DurableFile&) = delete;
+  explicit DurableFile(std::filesystem::path path) : PendingFile(std::move(path)) {}
 
-  /// @throws RunError
-  void write(std::span<const std::byte> piece);
   /// Once, at the end: content, then name. What was at the path is kept under `previous`; at every moment at least one of the two names a
   /// complete file. @throws RunError; what was there stays
   void replace(const std::filesystem::path& previous);
-
- private:
-  std::filesystem::path path_, temporary_;
-  int descriptor_ = -1;
 };
 
 /// Whole file. @throws RunError

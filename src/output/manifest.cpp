@@ -62,12 +62,13 @@ void Manifest::begin(const cycle::Snapshot& first) {
   j["model"] = model_json(*first.model, part_masses(*first.model, first.groups));
   j["model"]["fingerprint"] = fingerprint_text(info_.model_fingerprint);
   j["findings"] = findings_json(info_.findings);
-  j["contact"] = contact_json(info_.contact);
+  j["contact"] = nullptr;  // long where findings name many nodes: made again at the end
   j["files"] = {{"listing", folder_.listing().filename().string()},
                 {"history", folder_.history().filename().string()},
                 {"animation", folder_.animation_index().filename().string()},
                 {"contact_surfaces", folder_.contact_surfaces().filename().string()}};
   head_ = json_text(j);
+  j["contact"] = contact_json(*info_.contact);
   j["outcome"] = {{"kind", "running"}};
   write_atomically(folder_.manifest(), json_text(j));
 }
@@ -84,6 +85,7 @@ void Manifest::persist(state::Archive& a) {
 
 void Manifest::end(const cycle::Outcome& outcome) {
   Json j = head_.empty() ? Json::object() : Json::parse(head_);
+  if (!head_.empty()) j["contact"] = contact_json(*info_.contact);
   j["outcome"] = {{"kind", outcome_name(outcome.kind)},
                   {"message", outcome.message},
                   {"cycles", outcome.cycles},

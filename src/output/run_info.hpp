@@ -39,7 +39,8 @@ struct RunInfo {
   std::uint64_t model_fingerprint = 0;  ///< of the Starter deck's text
   std::vector<std::string> decks;       ///< paths of the Starter and Engine decks and their includes
   std::vector<Diagnostic> findings;
-  std::vector<init::ContactFinding> contact;                              ///< what the inspection found; also among the findings, as text
+  /// What the inspection found; also among the findings, as text. One copy for all who write it.
+  std::shared_ptr<const std::vector<init::ContactFinding>> contact = std::make_shared<const std::vector<init::ContactFinding>>();
   std::shared_ptr<RunFindings> during = std::make_shared<RunFindings>();  ///< filled while the run goes on; shared by its outputs
 
   [[nodiscard]] Opening opening() const { return resumed ? Opening::resumed : Opening::fresh; }

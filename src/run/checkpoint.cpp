@@ -92,7 +92,9 @@ run::CheckpointInfo Run::Impl::checkpoint_info() {
 
 void Run::Impl::save(const std::filesystem::path& path, const std::filesystem::path& previous) {
   output::DurableFile file(path);
-  state::Sealer sealer([&file](std::span<const std::byte> piece) { file.write(piece); });
+  state::Sealer sealer([&file](std::span<const std::byte> piece) {
+    file.write({reinterpret_cast<const char*>(piece.data()), piece.size()});
+  });
   state::Archive a([&sealer](std::span<const std::byte> piece) { sealer.add(piece); });
   checkpoint_info().persist(a);
   cycle->persist(a);

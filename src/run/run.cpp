@@ -65,7 +65,7 @@ const Balance& Run::balance() const { return impl_->cycle->balance(); }
 std::span<const InterfaceResult> Run::interfaces() const { return impl_->cycle->interface_results(); }
 const History& Run::history() const { return impl_->history; }
 std::span<const Diagnostic> Run::initial_findings() const { return impl_->info.findings; }
-std::span<const ContactFinding> Run::contact_findings() const { return impl_->inspection.contact; }
+std::span<const ContactFinding> Run::contact_findings() const { return *impl_->info.contact; }
 std::span<const RunFinding> Run::findings() const { return *impl_->info.during; }
 const std::filesystem::path& Run::output() const { return impl_->settings.output; }
 std::vector<PhaseTime> Run::timings() const { return impl_->timings(); }

@@ -67,7 +67,7 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
   model = run::projected(model, settings.choices);
   before.push_back({"read", model.impl().read_seconds});
   auto phase = Clock::now();
-  inspection = run::inspect(model.impl().model, settings.choices, false);
+  Inspection inspection = run::inspect(model.impl().model, settings.choices, false);
   before.push_back({"inspect", seconds_since(phase)});
 
   Diagnostics findings;
@@ -83,7 +83,7 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
   info.model_fingerprint = model.fingerprint();
   info.decks.assign(model.files().begin(), model.files().end());
   info.findings = findings.all();
-  info.contact = inspection.contact;
+  info.contact = std::make_shared<const std::vector<ContactFinding>>(std::move(inspection.contact));
 
   phase = Clock::now();
   cycle::RunOptions options = run::options_of(settings.choices, settings.threads);

@@ -64,7 +64,6 @@ struct Run::Impl {
 
   Model model;
   RunSettings settings;
-  Inspection inspection;
   std::vector<PhaseTime> before;  ///< phases before the first cycle
   std::unique_ptr<cycle::Cycle> cycle;
   output::RunInfo info;

@@ -18,9 +18,52 @@ struct Facet {
   [[nodiscard]] int corners() const { return is_triangle() ? 3 : 4; }
 };
 
-/// Topology of a surface. Spans live as long as the surface. What changes (stiffness, thickness, activity) is handed to Interface as spans,
-/// #F each.
-class Surface {
+/// Which nodes and facets of a surface belong together. Spans live as long as it does.
+class SurfaceTopology {
+ public:
+  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }  ///< #S host nodes, by key, distinct
+  /// Facets by surface-local node numbers (positions in nodes()).
+  [[nodiscard]] std::span<const std::array<Index, 4>> local() const { return local_; }
+  /// Facet f by host nodes, as given. @pre 0 <= f < facet_count(); the next two, too
+  [[nodiscard]] Facet facet(Index f) const {
+    Facet out;
+    for (std::size_t k = 0; k < 4; ++k) out.node[k] = nodes_[static_cast<std::size_t>(local_[static_cast<std::size_t>(f)][k])];
+    return out;
+  }
+  [[nodiscard]] bool is_triangle(Index f) const {
+    const std::array<Index, 4>& n = local_[static_cast<std::size_t>(f)];
+    return n[3] == n[2];
+  }
+  [[nodiscard]] int corners(Index f) const { return is_triangle(f) ? 3 : 4; }
+  /// Facets at surface node s (each once), ascending. @pre 0 <= s < node_count()
+  [[nodiscard]] std::span<const Index> facets_at(Index s) const;
+  /// Facet across edge e (corner e to corner e+1) of facet f; no_index at a free border or a junction of more than two.
+  /// A triangle has edges 0, 1 and 2 (corner 2 to corner 0). @pre 0 <= f < facet_count(), 0 <= e < corners(f); free_border() too
+  [[nodiscard]] Index neighbour(Index f, int e) const { return neighbours_[static_cast<std::size_t>(f)][static_cast<std::size_t>(e)]; }
+  /// True when edge e of facet f belongs to no other facet.
+  [[nodiscard]] bool free_border(Index f, int e) const { return (borders_[static_cast<std::size_t>(f)] >> e & 1) != 0; }
+  [[nodiscard]] Index facet_count() const { return static_cast<Index>(local_.size()); }
+  [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
+  /// Position of a host node in nodes(); no_index when it is not on this surface.
+  [[nodiscard]] Index find(Index host_node) const;
+
+ protected:
+  std::vector<Index> nodes_;
+  std::vector<std::array<Index, 4>> local_;
+
+  /// Makes the rest from nodes_.
+  void connect(std::span<const Facet> facets);
+
+ private:
+  std::vector<Index> at_first_;
+  std::vector<Index> at_facet_;
+  std::vector<std::array<Index, 4>> neighbours_;
+  std::vector<std::uint8_t> borders_;
+  std::vector<Index> by_host_;  // surface nodes by ascending host node; empty: nodes_ ascend
+};
+
+/// A surface as its host gives it. What changes (stiffness, thickness, activity) is handed to Interface as spans, #F each.
+class Surface : public SurfaceTopology {
  public:
   Surface() = default;
   /// @param facets  #F faces; degenerate spellings (n4 = 0, n4 = n1, n2 = n3, n1 = n2) must already be normalised
@@ -30,20 +73,6 @@ class Surface {
   explicit Surface(std::vector<Facet> facets, std::span<const Id> node_key = {});
 
   [[nodiscard]] std::span<const Facet> facets() const { return facets_; }  ///< #F, as given
-  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }    ///< #S host nodes, by key, distinct
-  /// Facets by surface-local node numbers (positions in nodes()).
-  [[nodiscard]] std::span<const std::array<Index, 4>> local() const { return local_; }
-  /// Facets at surface node s (each once), ascending. @pre 0 <= s < node_count()
-  [[nodiscard]] std::span<const Index> facets_at(Index s) const;
-  /// Facet across edge e (corner e to corner e+1) of facet f; no_index at a free border or a junction of more than two.
-  /// A triangle has edges 0, 1 and 2 (corner 2 to corner 0). @pre 0 <= f < facet_count(), 0 <= e < facets()[f].corners(); free_border() too
-  [[nodiscard]] Index neighbour(Index f, int e) const { return neighbours_[static_cast<std::size_t>(f)][static_cast<std::size_t>(e)]; }
-  /// True when edge e of facet f belongs to no other facet.
-  [[nodiscard]] bool free_border(Index f, int e) const { return (borders_[static_cast<std::size_t>(f)] >> e & 1) != 0; }
-  [[nodiscard]] Index facet_count() const { return static_cast<Index>(facets_.size()); }
-  [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
-  /// Position of a host node in nodes(); no_index when it is not on this surface.
-  [[nodiscard]] Index find(Index host_node) const;
 
   /// Order of the facets that does not depend on how they were listed: by their nodes' keys.
   [[nodiscard]] std::vector<Index> canonical_order() const;
@@ -53,15 +82,6 @@ class Surface {
 
  private:
   std::vector<Facet> facets_;
-  std::vector<Index> nodes_;
-  std::vector<std::array<Index, 4>> local_;
-  std::vector<Index> at_first_;
-  std::vector<Index> at_facet_;
-  std::vector<std::array<Index, 4>> neighbours_;
-  std::vector<std::uint8_t> borders_;
-  std::vector<std::array<Index, 2>> by_host_;  // (host node, surface node), ascending
-
-  void connect();
 };
 
 }  // namespace abut::contact

@@ -95,14 +95,14 @@ BothSides::Met BothSides::meet(const Side& held, const Side& surface, Index node
   const auto& corner = surface.surface().local()[at(facet)];
   std::array<Vec3, 4> x;
   for (std::size_t k = 0; k < 4; ++k) x[k] = surface.x()[at(corner[k])];
-  return {both_sides_contact(held.x()[at(node)], x, surface.surface().facets()[at(facet)].is_triangle(), gap, options_.all_pieces), gap};
+  return {both_sides_contact(held.x()[at(node)], x, surface.surface().is_triangle(facet), gap, options_.all_pieces), gap};
 }
 
 std::span<const Index> BothSides::facets_of(const Candidates& candidates, Index node, std::vector<Index>& scratch) const {
   scratch.clear();
   const Index self = held_.nodes()[at(node)];
   for (const Candidates::Entry& entry : candidates.of(node)) {
-    const auto& corners = surface_.surface().facets()[at(entry.facet)].node;
+    const std::array<Index, 4> corners = surface_.surface().facet(entry.facet).node;
     if (surface_.active(entry.facet) && std::find(corners.begin(), corners.end(), self) == corners.end()) scratch.push_back(entry.facet);
   }
   std::sort(scratch.begin(), scratch.end());
@@ -145,7 +145,7 @@ std::vector<Projection> BothSides::projections(std::span<const Vec3> x, bool mov
       if (!move_surface) {
         largest(held.nodes()[at(node)], by);
       } else {
-        for (const Index n : surface.surface().facets()[at(facet)].node) largest(n, -by);
+        for (const std::array<Index, 4> corners = surface.surface().facet(facet).node; const Index n : corners) largest(n, -by);
       }
     }
   }

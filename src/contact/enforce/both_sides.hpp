@@ -16,6 +16,7 @@ class BothSides final : public InterfaceModel {
  public:
   BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions options);
 
+  [[nodiscard]] const Side& side(std::size_t k) const override { return k == 0 ? held_ : surface_; }
   void set_surface(int side, const SurfaceState& state) override;
   [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const override;
   void search(const HostState& host) override;

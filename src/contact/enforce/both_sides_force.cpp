@@ -108,7 +108,7 @@ Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, 
 bool BothSides::add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                          Sums& sums) {
   const auto& corner = surface_.surface().local()[at(facet)];
-  const bool triangle = surface_.surface().facets()[at(facet)].is_triangle();
+  const bool triangle = surface_.surface().is_triangle(facet);
   const std::size_t corners = triangle ? 3 : 4;
   const Met met = meet(held_, surface_, node, facet, pair_gap(node, facet));
   const BothSidesContact& c = met.contact;

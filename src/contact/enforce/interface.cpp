@@ -13,18 +13,46 @@
 
 namespace abut::contact {
 
+namespace {
+
+/// A surface as it was given, from the side that computes with it.
+Recipe::Topology topology_of(const Side& side) {
+  Recipe::Topology t;
+  t.facets.resize(static_cast<std::size_t>(side.facet_count()));
+  for (Index f = 0; f < side.facet_count(); ++f) { t.facets[static_cast<std::size_t>(side.listed(f))] = side.surface().facet(f); }
+  t.order.assign(side.surface().nodes().begin(), side.surface().nodes().end());
+  return t;
+}
+
+}  // namespace
+
 /// The model that computes, and what is known about how it came to be.
 struct Interface::Made {
   std::unique_ptr<InterfaceModel> model;
-  Recipe recipe;
-  std::array<SurfaceValues, 2> surfaces = {};
+  Recipe recipe;  ///< without what the sides of the model know: surfaces, hosted nodes
+  std::array<SurfaceFlags, 2> surfaces = {};
   std::uint64_t fingerprint = 0;
+  std::size_t needed = 0;  ///< nodes that the host must have at least
   std::unique_ptr<Recorder> recorder = nullptr;
   enum class Stage { idle, searched, evaluated } stage = Stage::idle;
 
+  /// The recipe as it was before the model was made.
+  [[nodiscard]] Recipe whole_recipe() const {
+    Recipe r = recipe;
+    for (std::size_t k = 0; k < 2; ++k) r.side[k] = topology_of(model->side(k));
+    r.collect();
+    return r;
+  }
+  /// What set_surface() was given last.
+  [[nodiscard]] SurfaceValues values(std::size_t k) const {
+    const SurfaceFlags& given = surfaces[k];
+    SurfaceValues v{{}, {}, given.active, given.node_active};
+    if (given.stiffness) v.stiffness = model->side(k).listed_stiffness();
+    if (given.thickness) v.thickness = model->side(k).listed_thickness();
+    return v;
+  }
   /// The host's arrays reach to the last node of the interface.
   void check(std::size_t length, const char* what, bool may_be_empty = false) const {
-    const std::size_t needed = recipe.hosted.empty() ? 0 : static_cast<std::size_t>(recipe.hosted.back()) + 1;
     if (length >= needed || (length == 0 && may_be_empty)) return;
     throw std::invalid_argument("contact: " + std::string(what) + " has " + std::to_string(length) + " nodes, the interface needs " +
                                 std::to_string(needed));
@@ -35,11 +63,13 @@ struct Interface::Made {
     check(host.mass.size(), "mass", true);
     check(host.constrained.size(), "constrained", true);
     if (host.constrained.empty()) return;
-    for (const Index n : recipe.hosted) {
-      const Index entry = host.constrained[static_cast<std::size_t>(n)];
-      if (entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size())) continue;
-      throw std::invalid_argument("contact: constrained names entry " + std::to_string(entry) + " of " +
-                                  std::to_string(host.mobility.size()));
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const Index n : model->side(k).nodes()) {
+        const Index entry = host.constrained[static_cast<std::size_t>(n)];
+        if (entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size())) continue;
+        throw std::invalid_argument("contact: constrained names entry " + std::to_string(entry) + " of " +
+                                    std::to_string(host.mobility.size()));
+      }
     }
   }
   [[nodiscard]] std::vector<std::byte> history() const {
@@ -50,8 +80,13 @@ struct Interface::Made {
 };
 
 Interface::Interface(Made made) : made_(std::make_unique<Made>(std::move(made))) {
-  made_->recipe.collect();
-  made_->fingerprint = made_->recipe.fingerprint();
+  Recipe& recipe = made_->recipe;
+  recipe.collect();
+  made_->fingerprint = recipe.fingerprint();
+  made_->needed = recipe.hosted.empty() ? 0 : static_cast<std::size_t>(recipe.hosted.back()) + 1;
+  // The sides know these, and few ask: whole_recipe().
+  recipe.side = {};
+  std::vector<Index>().swap(recipe.hosted);
 }
 Interface::~Interface() = default;
 Interface::Interface(Interface&&) noexcept = default;
@@ -103,7 +138,8 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
   made_->check(host.x.size(), "x");
   made_->check(host.v.size(), "v", true);
   made_->check(host.mass.size(), "mass", true);
-  const Recipe& recipe = made_->recipe;
+  const Recipe recipe = made_->whole_recipe();
+  const std::array<SurfaceValues, 2> surfaces{made_->values(0), made_->values(1)};
   InspectionInput input;
   for (std::size_t k = 0; k < 2; ++k) {
     const std::size_t facets = recipe.side[k].facets.size();
@@ -112,7 +148,7 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
                                   " facets");
     }
     input.side[k] = {recipe.side[k].facets, {}, {}, outward[k]};
-    input.side[k].stiffness = made_->surfaces[k].stiffness;
+    input.side[k].stiffness = surfaces[k].stiffness;
   }
   input.side[0].nodes = recipe.nodes;
   input.both_sides = recipe.kind == Recipe::Kind::both_sides;
@@ -121,7 +157,7 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
   input.gap = input.both_sides ? recipe.both.largest_gap() : recipe.options.gap;
   if (!input.both_sides && recipe.options.automatic_gap) {
     double both = 0.0;
-    for (const SurfaceValues& s : made_->surfaces) {
+    for (const SurfaceValues& s : surfaces) {
       if (!s.thickness.empty()) both += *std::max_element(s.thickness.begin(), s.thickness.end());
     }
     input.gap = std::max(input.gap, 0.5 * both);
@@ -192,7 +228,8 @@ void Interface::restore(std::span<const std::byte> history) {
 }
 
 void Interface::record(std::ostream& log, std::string_view label) {
-  made_->recorder = std::make_unique<Recorder>(log, made_->recipe, made_->surfaces, made_->history(), label);
+  made_->recorder =
+      std::make_unique<Recorder>(log, made_->whole_recipe(), std::array{made_->values(0), made_->values(1)}, made_->history(), label);
 }
 
 void Interface::stop_recording() { made_->recorder.reset(); }

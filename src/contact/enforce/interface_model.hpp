@@ -3,6 +3,7 @@
 
 #include "abut/contact/interface.hpp"
 #include "contact/enforce/history.hpp"
+#include "contact/surface/side.hpp"
 
 namespace abut::contact {
 
@@ -13,6 +14,7 @@ class InterfaceModel {
   InterfaceModel& operator=(const InterfaceModel&) = delete;
   virtual ~InterfaceModel() = default;
 
+  [[nodiscard]] virtual const Side& side(std::size_t k) const = 0;
   virtual void set_surface(int side, const SurfaceState& state) = 0;
   [[nodiscard]] virtual std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const = 0;
   /// Those whose loops are short may leave it.

@@ -55,8 +55,10 @@ struct NormalLaw {
   /// -u - ln(1 - u) for 0 <= u < 1, to about 4e-16 relative (TYPE7 uses it up to its pole).
   [[nodiscard]] static constexpr double minus_u_minus_log(double u) {
     if (u < 0.125) {  // the series itself: the difference would cancel
+      constexpr double c[] = {1. / 20, 1. / 19, 1. / 18, 1. / 17, 1. / 16, 1. / 15, 1. / 14, 1. / 13, 1. / 12, 1. / 11,
+                              1. / 10, 1. / 9,  1. / 8,  1. / 7,  1. / 6,  1. / 5,  1. / 4,  1. / 3,  1. / 2};
       double sum = 0.0;
-      for (int k = 20; k >= 2; --k) sum = sum * u + 1.0 / k;
+      for (const double one : c) sum = sum * u + one;
       return sum * u * u;
     }
     constexpr double ln2 = 0.693147180559945309417232121458;
@@ -69,8 +71,9 @@ struct NormalLaw {
     // ln y = 2 artanh((y - 1)/(y + 1)); |z| <= 0.172, z^24 < 1e-18.
     const double z = (y - 1.0) / (y + 1.0);
     const double zz = z * z;
+    constexpr double c[] = {1. / 23, 1. / 21, 1. / 19, 1. / 17, 1. / 15, 1. / 13, 1. / 11, 1. / 9, 1. / 7, 1. / 5, 1. / 3, 1.};
     double sum = 0.0;
-    for (int k = 23; k >= 1; k -= 2) sum = sum * zz + 1.0 / k;
+    for (const double one : c) sum = sum * zz + one;
     return -u - (log + 2.0 * z * sum);
   }
 };

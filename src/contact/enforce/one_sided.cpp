@@ -116,7 +116,7 @@ void OneSided::project(Side& held, Side& surface, bool move_surface, std::vector
       const Index facet = tracked[at(i)].facet;
       if (facet == no_index) continue;
       const Index node = held.nodes()[at(i)];
-      const auto& corners = surface.surface().facets()[at(facet)].node;
+      const std::array<Index, 4> corners = surface.surface().facet(facet).node;
       if (std::find(corners.begin(), corners.end(), node) != corners.end()) continue;
       if (surface_moved) surface.gather(moved);
       const PlainPoint p = project_plain(surface.patch(facet), moved[at(node)], options_.gap, true);
@@ -132,7 +132,7 @@ void OneSided::project(Side& held, Side& surface, bool move_surface, std::vector
         moved[at(node)] += by;
         continue;
       }
-      const std::size_t count = surface.surface().facets()[at(facet)].is_triangle() ? 3 : 4;
+      const std::size_t count = surface.surface().is_triangle(facet) ? 3 : 4;
       for (std::size_t k = 0; k < count; ++k) moved[at(corners[k])] -= by;
     }
   }
@@ -343,6 +343,11 @@ void OneSided::add_nodal_contact(std::span<NodalContact> nodes) const {
 }
 
 void OneSided::save(HistoryWriter& out) const {
+  // Room at once: as large as it is, it would be in memory twice whenever it grows.
+  std::size_t bytes = 256;
+  for (const Side& side : side_) bytes += side.nodes().size() * 2 * sizeof(Vec3);
+  for (const Pass& pass : pass_) bytes += pass.saved_bytes();
+  out.reserve(bytes);
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
   out.put(static_cast<std::uint64_t>(evaluated_ ? 1 : 0));
   out.put(initial_elastic_);

@@ -13,6 +13,7 @@ class OneSided final : public InterfaceModel {
   OneSided(Surface first, Surface second, const Options& options);
   OneSided(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options);
 
+  [[nodiscard]] const Side& side(std::size_t k) const override { return side_[k]; }
   void set_surface(int side, const SurfaceState& state) override;
   [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const override;
   void set_executor(Executor executor) override;

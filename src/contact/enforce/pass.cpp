@@ -78,8 +78,8 @@ void Pass::start(const Side& held, const Side& surface) {
     depth_[at(f)] = depth;
   }
   limit_depths();
-  tracked_.assign(at(held.node_count()), {});
   if (closest()) return;
+  tracked_.assign(at(held.node_count()), {});
   incremental_.start(held, surface, tracked_);
   if (!options_.rules.reference_friction || !options_.rubs()) return;
   // 7.2.5: nodes that touch at the start rub from the first cycle.
@@ -140,7 +140,7 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
   surface_step_ = motion.surface;
 }
 
-bool Pass::asleep(const Scene& scene, Index i) {
+bool Pass::asleep(const Scene& scene, Index i, FacetViews& facets) {
   const std::uint8_t quiet = quiet_[at(i)];
   if (quiet == awake || scene.host.dt <= 0.0) return false;
   // The largest motion of its block is at hand; its own has to be fetched.
@@ -152,7 +152,7 @@ bool Pass::asleep(const Scene& scene, Index i) {
   }
   if (quiet == nothing_listed && !candidates_.of(i).empty()) return false;
   if (clears(motion, due)) return true;
-  return far(scene.host, scene.held, scene.surface, scene.held_loads, i);
+  return far(scene, i, quiet == seen_in_front, facets);
 }
 
 bool Pass::block_asleep(const Scene& scene, std::size_t number) const {
@@ -173,13 +173,12 @@ void Pass::settle_block(std::size_t number) {
   block_due_[number] = due;
 }
 
-void Pass::measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums) {
-  const auto& [host, held, surface, held_loads, surface_loads] = scene;
+void Pass::measure(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums) {
   states_.after(i) = states_.before(i);
   if (closest()) {
-    measure_closest(host, held, surface, held_loads, surface_loads, i, touch, sums);
+    measure_closest(scene, i, touch, work, sums);
   } else {
-    measure_plain(held, surface, i, touch);
+    measure_plain(scene.held, scene.surface, i, touch);
   }
 }
 
@@ -205,8 +204,10 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
   const bool batches = in_batches(host);
   std::array<Index, at(group)> nodes;
   std::array<int, at(group)> lane;
+  std::array<Touch*, at(group)> touch_of;  // of those that are measured: few, one after the other in memory
   for (Index i = first; i < last;) {
     std::size_t count = 0;
+    Touch* next = touches.data();
     bool any = false;
     batch.count = 0;
     for (; i < last && batch.count < HeldBatch::size; ++i) {
@@ -214,15 +215,16 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
         i += block - 1;
         continue;
       }
-      if (asleep(scene, i)) continue;
+      if (asleep(scene, i, work.facets)) continue;
       loan.wake(i);
       lane[count] = none;
       if (batches && may_be_ordinary(scene, i)) {
         lane[count] = batch.count;
         put_in(scene, i, batch);
       } else {
-        measure(scene, i, touches[count], sums);
-        any = any || touches[count].contact;
+        Touch& touch = *(touch_of[count] = next++);
+        measure(scene, i, touch, work, sums);
+        any = any || touch.contact;
       }
       nodes[count++] = i;
     }
@@ -231,8 +233,8 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
       if (lane[k] == none) continue;
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
       if (ordinary && alone(scene, batch, lane[k], nodes[k], sums)) continue;
-      Touch& touch = touches[k];
-      measure(scene, nodes[k], touch, sums);
+      Touch& touch = *(touch_of[k] = next++);
+      measure(scene, nodes[k], touch, work, sums);
       any = any || touch.contact;
       const bool same = ordinary && touch.contact && touch.facet == states_.before(nodes[k]).facet && touch.further == 0;
       if (!same) lane[k] = none;
@@ -244,8 +246,9 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
         continue;
       }
       // 7.4.3: anchors are looked at only in groups in which somebody touches.
-      finish_node(host, held, surface, held_loads, nodes[k], touches[k], any, sums);
-      if (!touches[k].contact) end_contact(scene, nodes[k], touches[k], any, sums);
+      Touch& touch = *touch_of[k];
+      finish_node(host, held, surface, held_loads, nodes[k], touch, any, sums);
+      if (!touch.contact) end_contact(scene, nodes[k], touch, any, sums);
     }
     loan.settle(std::span(nodes).first(count));
   }
@@ -285,7 +288,7 @@ void Pass::end_contact(const Scene& scene, Index i, const Touch& touch, bool any
   if (!closest()) return;
   const bool nothing = candidates_.of(i).empty();
   if ((touch.far || nothing || touch.away) && after.ignored == 0 && std::memcmp(&before, &after, sizeof(NodeState)) == 0) {
-    quiet_[at(i)] = nothing ? nothing_listed : touch.far ? in_front : beyond_reach;
+    quiet_[at(i)] = nothing ? nothing_listed : !touch.far ? beyond_reach : after.in_front != 0 ? seen_in_front : in_front;
   }
 }
 
@@ -310,10 +313,18 @@ PassTotals Pass::evaluate(const HostState& host, const Side& held, const Side& s
     if (begin == end) return;  // an executor may hand out empty ranges: they are nobody's first
     // Large, and nothing in it is kept: made once per thread.
     thread_local const auto work = std::make_unique<Work>();
+    work->facets.forget();
     for (std::size_t g = begin; g < end; ++g) {
-      evaluate_group(scene, g, *work, groups_[g]);
+      GroupSums& sums = groups_[g];
+      // What nobody asks for when the group is done is the thread's, as large as its largest group needs it.
+      sums.further.swap(work->further);
+      if (begin == 0) sums.reactions.swap(work->reactions);
+      evaluate_group(scene, g, *work, sums);
+      sums.further.swap(work->further);
+      if (begin != 0) continue;
       // Reactions are added in the order of the groups: whoever has the first of them adds while they are in its cache.
-      if (begin == 0) add_reactions(groups_[g], scene.surface, scene.surface_loads);
+      add_reactions(sums, scene.surface, scene.surface_loads);
+      sums.reactions.swap(work->reactions);
     }
     if (begin == 0) added = end;
   };

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/enforce/facet_views.hpp"
 #include "contact/enforce/held_kernel.hpp"
 #include "contact/enforce/history.hpp"
 #include "contact/enforce/law.hpp"
@@ -55,6 +56,7 @@ class Pass {
   /// Those that the swept test caught, those that went over a free border, in the last evaluate.
   [[nodiscard]] const std::vector<Index>& crossed() const { return crossed_; }
   [[nodiscard]] const std::vector<Index>& lost() const { return lost_; }
+  [[nodiscard]] std::size_t saved_bytes() const;  ///< that save() writes, at most
   void save(HistoryWriter& out) const;
   void load(HistoryReader& in);
   /// Forces the next search to rebuild its lists (activity changed).
@@ -123,7 +125,10 @@ class Pass {
   struct Work {
     std::array<Touch, NodeStates::group> touches;
     NodeStates::Scratch scratch;
+    std::vector<Further> further;
+    std::vector<Reaction> reactions;
     HeldBatch batch;
+    FacetViews facets;
   };
   // A node that comes nearer by less than this share of its way to the gap in a step is not looked at. What is said of others, that a
   // step may bring into contact, must not depend on how old the lists are: it is said of nodes that come nearer than that.
@@ -131,7 +136,7 @@ class Pass {
   static constexpr double flight_share = 0.1;  // of a facet: nodes that fly further in a step look ahead on their own
   static_assert(1.5 * step_growth * passed_over < 1.0 && 0.5 / passed_over > step_growth);
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
-  enum Quiet : std::uint8_t { awake, in_front, nothing_listed, beyond_reach };
+  enum Quiet : std::uint8_t { awake, in_front, seen_in_front, nothing_listed, beyond_reach };
   // Of a block of nodes that are all quiet, when the first of them is due: of those in front (or without facets), of those beyond reach.
   struct Due {
     double in_front = 1e300, beyond = 1e300;
@@ -189,11 +194,11 @@ class Pass {
   /// g_j - D delta/(delta - D) (docs/theory/contact.md, 3). Where thickness is uneven, this may not be the nearest facet.
   /// @param by  what the nearest one, m, was looked for with
   [[nodiscard]] OuterGap outer_gap(const Side& held, const Side& surface, Index i, const Measure& m, const HeldBy& by, double strip,
-                                   bool was_held) const;
+                                   bool was_held, Looks& looks) const;
   /// Calls use(measure, as near as m) for each facet on the node's side, other than m, that is less near by less than `beyond`.
   template <class Use>
   void each_beside(const Side& surface, Index i, const Vec3& x, const Measure& m, const HeldBy& by, double strip, bool was_held,
-                   double beyond, const Use& use) const;
+                   double beyond, Looks& looks, const Use& use) const;
   [[nodiscard]] bool uneven_gap(const Side& surface) const { return options_.automatic_gap && !surface.evenly_thick(); }
   /// Gap of a node at this distance, less what initial penetration takes from it.
   [[nodiscard]] double gap_of(double full_gap, double distance, double depth, NodeState& after) const;
@@ -201,12 +206,11 @@ class Pass {
   [[nodiscard]] double full_gap(const Side& held, const Side& surface, Index i, Index facet, const std::array<double, 4>& weight) const;
   [[nodiscard]] NormalLaw law_of(double full_gap) const { return {options_.rules.law == Law::stiffening ? full_gap : 0.0}; }
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
-  void measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
-                       const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums);
+  void measure_closest(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums);
   /// Adds the facets that are as near as the one in `touch`, and those that store more (pair.hpp).
   /// @param by  what the nearest one, m, was looked for with
   void look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
-                    Touch& touch, GroupSums& sums);
+                    Looks& looks, Touch& touch, GroupSums& sums);
   /// The pair of facet `nearest` and node i, with whichever of `all` stores the most for it.
   void add_strongest(const Side& held, const Side& surface, Index i, bool widens, Further& nearest, std::span<Further> all, double share,
                      PairForce& sum) const;
@@ -240,9 +244,10 @@ class Pass {
   /// Signed distance of a held node to the other side less the pair's gap, whatever it touches; NaN when nothing is near.
   [[nodiscard]] double opening_of(const Side& held, const Side& surface, Index i) const;
   /// True while the node cannot touch, now or in the coming step.
-  [[nodiscard]] bool far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i);
+  /// @param seen  it remembers that it was seen in front, and no initial penetration: it has nothing to remember from coming near
+  [[nodiscard]] bool far(const Scene& scene, Index i, bool seen, FacetViews& facets);
   /// Quiet, and still without anything to say.
-  [[nodiscard]] bool asleep(const Scene& scene, Index i);
+  [[nodiscard]] bool asleep(const Scene& scene, Index i, FacetViews& facets);
   /// The same of all nodes of a block at once, or false.
   [[nodiscard]] bool block_asleep(const Scene& scene, std::size_t number) const;
   void settle_block(std::size_t number);
@@ -271,7 +276,7 @@ class Pass {
     return passed_over * std::min(smallest_depth_, due - candidates_.clock() - largest_gap_) - surface_step_;
   }
   void evaluate_group(const Scene& scene, std::size_t number, Work& work, GroupSums& sums);
-  void measure(const Scene& scene, Index i, Touch& touch, GroupSums& sums);
+  void measure(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums);
   void end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums);
   /// True where every ordinary held node goes through held_kernel().
   [[nodiscard]] bool in_batches(const HostState& host) const;

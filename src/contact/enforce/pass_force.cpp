@@ -76,7 +76,7 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   const double penetration = touch.gap - distance;
   if (penetration <= 0.0 || -distance > depth_[at(touch.facet)]) return 0.0;
   const std::size_t corners = patch.triangle ? 3 : 4;
-  const std::array<Index, 4>& node = surface.surface().facets()[at(touch.facet)].node;
+  const std::array<Index, 4> node = surface.surface().facet(touch.facet).node;
   double side = 1e300, slowest = 1e300, fastest = -1e300;
   for (std::size_t k = 0; k < corners; ++k) {
     side = std::min(side, norm(patch.x[(k + 1) % corners] - patch.x[k]));

@@ -23,41 +23,39 @@ double Pass::reach_of_stronger(double stiffness, double strongest, double p) con
 
 template <class Use>
 void Pass::each_beside(const Side& surface, Index i, const Vec3& x, const Measure& m, const HeldBy& by, double strip, bool was_held,
-                       double beyond, const Use& use) const {
+                       double beyond, Looks& looks, const Use& use) const {
   const double distance = std::sqrt(m.closest.squared_distance);
   const double reach = was_held ? 1e300 : std::max(largest_gap_, largest_depth_);  // what every list holds
   const double equal = equally_near * distance;
   // Who may not be the nearest of a held node (nearest()) may not store more either: else it would stop to where it comes nearer.
   const auto may_be_nearest = [&](const Measure& its) {
     if (by.facet == no_index || pushes_alike(its, by.normal)) return true;
-    return its.distance >= 0.0 &&
-           signed_measure(surface, by.facet, closest_point(extended(surface, by.facet, strip), x), x).distance >= 0.0;
+    return its.distance >= 0.0 && looks.measure(by.facet, strip).distance >= 0.0;
   };
   const double within = (1.0 + equally_near) * distance + beyond;
   for (const Candidates::Entry& entry : candidates_.of(i)) {
     const Index f = entry.facet;
     if (entry.due - candidates_.clock() > within || f == m.facet || !surface.active(f)) continue;
-    const Patch patch = extended(surface, f, strip);
-    if (distance_at_least(patch, x) > within) continue;
-    const ClosestPoint other = closest_point(patch, x);
+    if (!looks.has(f, strip) && distance_at_least(extended(surface, f, strip), x) > within) continue;
+    const ClosestPoint& other = looks.closest(f, strip);
     const double away = std::sqrt(other.squared_distance);
     const bool as_near = std::abs(away - distance) <= equal;
     if (!as_near && !(away > distance && away - distance < beyond && away <= reach)) continue;
     if (other.beyond) continue;
-    const Measure its = signed_measure(surface, f, other, x);
+    const Measure its = looks.measure(f, strip);
     if (its.distance * m.distance < 0.0 || dot(its.normal, m.normal) < -0.5) continue;
     if (may_be_nearest(its)) use(its, as_near);
   }
 }
 
 Pass::OuterGap Pass::outer_gap(const Side& held, const Side& surface, Index i, const Measure& m, const HeldBy& by, double strip,
-                               bool was_held) const {
+                               bool was_held, Looks& looks) const {
   const double own = full_gap(held, surface, i, m.facet, m.closest.weight);
   OuterGap outer{own, own};
   const double more = largest_gap_ - own;
   if (!uneven_gap(surface) || more <= 0.0) return outer;
   const double length = stronger_within * longest_;
-  each_beside(surface, i, held.x()[at(i)], m, by, strip, was_held, more * length / (more + length), [&](const Measure& its, bool) {
+  each_beside(surface, i, held.x()[at(i)], m, by, strip, was_held, more * length / (more + length), looks, [&](const Measure& its, bool) {
     const double within = widening_[at(its.facet)] > 0.0 ? stronger_within / widening_[at(its.facet)] : 0.0;
     const double less = std::max(0.0, std::abs(its.distance) - std::abs(m.distance));
     if (less >= within) return;
@@ -69,7 +67,7 @@ Pass::OuterGap Pass::outer_gap(const Side& held, const Side& surface, Index i, c
 }
 
 void Pass::look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
-                        Touch& touch, GroupSums& sums) {
+                        Looks& looks, Touch& touch, GroupSums& sums) {
   const Vec3 x = held.x()[at(i)];
   const double distance = std::sqrt(m.closest.squared_distance);
   const double size = surface.facet_area(m.facet);
@@ -79,7 +77,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   if (outgrows(i, distance + beyond)) sums.outgrown = true;
   touch.first_further = sums.further.size();
   const auto gap_with = [&](double full) { return gap + (full - touch.full_gap); };
-  each_beside(surface, i, x, m, by, strip, was_held, beyond, [&](const Measure& its, bool as_near) {
+  each_beside(surface, i, x, m, by, strip, was_held, beyond, looks, [&](const Measure& its, bool as_near) {
     // The same point, seen from the facet across, is the same contact unless its strip fades elsewhere.
     const bool same = squared_norm(its.closest.point - m.closest.point) < 1e-12 * size;
     if (same && beyond <= 0.0) return;

@@ -43,7 +43,7 @@ bool Pass::may_be_ordinary(const Scene& scene, Index i) const {
   if (corner[2] == corner[3]) return false;
   if (!scene.host.constrained.empty()) {
     const auto asks = [&scene](Index n) { return plain_mass(scene.host, n) < 0.0; };
-    const std::array<Index, 4>& host_corner = scene.surface.surface().facets()[at(before.facet)].node;
+    const std::array<Index, 4> host_corner = scene.surface.surface().facet(before.facet).node;
     if (asks(scene.held.nodes()[at(i)]) || std::any_of(host_corner.begin(), host_corner.end(), asks)) return false;
   }
   return !options_.rubs() || (before.anchored != 0 && before.anchor.facet == before.facet);
@@ -54,7 +54,7 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   const auto k = static_cast<std::size_t>(batch.count++);
   const Side& surface = scene.surface;
   const std::array<Index, 4>& corner = surface.surface().local()[at(before.facet)];
-  const std::array<Index, 4>& host_corner = surface.surface().facets()[at(before.facet)].node;
+  const std::array<Index, 4> host_corner = surface.surface().facet(before.facet).node;
   const Index host_node = scene.held.nodes()[at(i)];
   batch.node[k] = 3 * i;
   batch.node_v[k] = 3 * host_node;

@@ -3,11 +3,15 @@
 
 namespace abut::contact {
 
-void Pass::save(HistoryWriter& out) const {
+std::size_t Pass::saved_bytes() const {
   const auto nodes = static_cast<Index>(states_.size());
   std::size_t full = 0;
   for (Index i = 0; i < nodes; ++i) full += remembered(states_.before(i)) == Remembered::all ? 1 : 0;
-  out.reserve(states_.size() + full * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) + tracked_.size() * sizeof(Tracked) + 64);
+  return states_.size() * (1 + sizeof(Tracked)) + full * sizeof(NodeState) + 2 * depth_.size() * sizeof(double) + 64;
+}
+
+void Pass::save(HistoryWriter& out) const {
+  const auto nodes = static_cast<Index>(states_.size());
   out.put(static_cast<std::uint64_t>(states_.size()));
   for (Index i = 0; i < nodes; ++i) {
     const NodeState& state = states_.before(i);
@@ -20,7 +24,8 @@ void Pass::save(HistoryWriter& out) const {
   for (const double w : widening_) out.put(w);
   out.put(size_);
   out.put(settled_);
-  for (const Tracked& t : tracked_) out.put(t);
+  // Only the incremental search tracks nodes.
+  for (std::size_t i = 0; i < (started_ ? states_.size() : 0); ++i) out.put(tracked_.empty() ? Tracked{} : tracked_[i]);
 }
 
 void Pass::load(HistoryReader& in) {
@@ -43,8 +48,12 @@ void Pass::load(HistoryReader& in) {
   limit_depths();
   in.get(size_);
   in.get(settled_);
-  tracked_.resize(started_ ? states_.size() : 0);
-  for (Tracked& t : tracked_) in.get(t);
+  tracked_.resize(started_ && !closest() ? states_.size() : 0);
+  for (std::size_t i = 0; i < (started_ ? states_.size() : 0); ++i) {
+    Tracked t;
+    in.get(t);
+    if (!tracked_.empty()) tracked_[i] = t;
+  }
   stale_ = true;
 }
 

@@ -21,36 +21,6 @@ Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
 
 }  // namespace
 
-double Pass::squared_motion(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
-  const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;
-  const Vec3 last = held.x()[at(i)] - held_loads.x_before[at(i)] - mean_step_;
-  return std::max(squared_norm(last), squared_norm(coming));
-}
-
-bool Pass::far(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads, Index i) {
-  const double motion = squared_motion(host, held, held_loads, i);
-  if (clears(motion, candidates_.nearest_due(i))) return true;
-  if (!clears(motion, 1e300) || stale_) return false;
-  // The clock counts the largest motion of all nodes: look how far the planes of the facets are. All of them, for they serve for a while.
-  const Vec3 x = held.x()[at(i)];
-  double due = 1e300;
-  for (Candidates::Entry& entry : candidates_.of(i)) {
-    const double by_plane = height_over(surface.patch(entry.facet), x) + candidates_.clock();
-    const double known = entry.due;
-    const double nearest = entry.border ? std::min(known, by_plane) : std::max(known, by_plane);
-    if (!entry.border) entry.due = nearest;
-    if (!clears(motion, nearest)) return false;
-    due = std::min(due, nearest);
-  }
-  candidates_.set_nearest_due(i, due);
-  return true;
-}
-
-bool Pass::near(const HostState& host, const Side& held, const SideLoads& held_loads, Index i, double distance) const {
-  constexpr double rounding = 1.0 + 1e-9;  // of the clock: nobody is near whom far() passed over
-  return distance <= reach() && !clears(squared_motion(host, held, held_loads, i), rounding * distance + candidates_.clock());
-}
-
 Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& held_loads, const SideLoads& surface_loads, Index i) const {
   const Vec3 x = held.x()[at(i)];
   const Vec3 before = held_loads.x_before[at(i)];
@@ -62,7 +32,7 @@ Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& 
   double earliest = 2.0;
   candidates_.near(path, surface_step_, [&](Index f) {
     if (!surface.active(f)) return;
-    for (const Index n : surface.surface().facets()[at(f)].node) {
+    for (const std::array<Index, 4> corners = surface.surface().facet(f).node; const Index n : corners) {
       if (n == held.nodes()[at(i)]) return;
     }
     const Crossing c = crosses(patch_at(surface, surface_loads.x_before, f), before, surface.patch(f), x);
@@ -74,8 +44,10 @@ Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& 
   return hit;
 }
 
-void Pass::measure_closest(const HostState& host, const Side& held, const Side& surface, const SideLoads& held_loads,
-                           const SideLoads& surface_loads, Index i, Touch& touch, GroupSums& sums) {
+void Pass::measure_closest(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums) {
+  const HostState& host = scene.host;
+  const Side &held = scene.held, &surface = scene.surface;
+  const SideLoads &held_loads = scene.held_loads, &surface_loads = scene.surface_loads;
   const NodeState& before = states_.before(i);
   NodeState& after = states_.after(i);
   touch = {};
@@ -83,7 +55,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   const Vec3 x = held.x()[at(i)];
   const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
   if (in_front_[at(i)] != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
-    if (far(host, held, surface, held_loads, i)) {
+    if (far(scene, i, before.in_front != 0 && before.offset == 0.0, work.facets)) {
       touch.far = true;
       after.offset = 0.0;
       return;
@@ -92,11 +64,18 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
   touch.widens = was_held && before.held == 2;
   const double strip = touch.widens ? border_strip + border_widening : border_strip;
   HeldBy by = was_held ? HeldBy{before.facet, before.normal, strip} : HeldBy{};
+  Looks looks(surface, x);
   Measure m;
-  if (was_held || !candidates_.of(i).empty()) m = nearest(surface, candidates_, i, x, by);
+  if (was_held || !candidates_.of(i).empty()) m = nearest(surface, candidates_, i, x, by, looks);
   const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;
   in_front_[at(i)] = in_front && !touch.widens ? 1 : 0;  // as a free node sees it: without the wider strips of held ones
-  if (in_front && !was_held) candidates_.limit_nearest_due(i, lowest_over_borders(surface, candidates_, i, x) + candidates_.clock());
+  if (in_front && !was_held) {
+    double lowest = 1e300;  // over the planes of facets at free borders
+    for (const Candidates::Entry& entry : candidates_.of(i)) {
+      if (entry.border) lowest = std::min(lowest, work.facets.plane(surface, entry.facet).height(x));
+    }
+    candidates_.limit_nearest_due(i, lowest + largest_gap_ + candidates_.clock());
+  }
   // Beyond their reach lists need not hold the nearest facet: what is said and remembered must not depend on how old they are.
   const double away = m.found() ? std::sqrt(m.closest.squared_distance) : 1e300;
   if (was_held || near(host, held, held_loads, i, away)) after.in_front = in_front ? 1 : 0;
@@ -114,7 +93,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
     touch.normal = measure.normal;
     touch.distance = measure.distance;
     own_gap = full_gap(held, surface, i, measure.facet, measure.closest.weight);
-    const OuterGap outer = outer_gap(held, surface, i, measure, by, strip, was_held);
+    const OuterGap outer = outer_gap(held, surface, i, measure, by, strip, was_held, looks);
     touch.full_gap = outer.gap;
     touch.law = law_of(outer.of_facet);
   };
@@ -175,7 +154,7 @@ void Pass::measure_closest(const HostState& host, const Side& held, const Side& 
                       (was_held || -m.distance <= depth_[at(m.facet)]);
   if (touch.pair_open && !beside) return;
   touch.pair = force_of(held, surface, m, i, touch.gap, touch.widens);
-  if (meets || beside) look_further(held, surface, m, i, by, strip, was_held, touch, sums);
+  if (meets || beside) look_further(held, surface, m, i, by, strip, was_held, looks, touch, sums);
   touch.contact = (meets || beside) && touch.pair.magnitude > 0.0;
   touch.pair_open = touch.pair_open && !touch.contact;
   if (touch.pair_open) return;
@@ -188,7 +167,7 @@ Measure Pass::nearest_pushing_alike(const Side& held, const Side& surface, Index
   const Measure first = signed_measure(surface, facet, closest_point(surface.patch(facet), x), x);
   Measure best = first;
   candidates_.near({x, x}, std::sqrt(first.closest.squared_distance), [&](Index f) {
-    const auto& corners = surface.surface().facets()[at(f)].node;
+    const std::array<Index, 4> corners = surface.surface().facet(f).node;
     if (!surface.active(f) || f == facet || std::find(corners.begin(), corners.end(), held.nodes()[at(i)]) != corners.end()) return;
     const ClosestPoint c = closest_point(surface.patch(f), x);
     const double nearer = best.closest.squared_distance;
@@ -206,7 +185,7 @@ Measure Pass::nearest_of_all(const Side& held, const Side& surface, Index i) con
   for (double within = size_; best.facet == no_index && within < 1e9 * size_; within *= 4.0) {
     double least = within;
     candidates_.near({x, x}, within, [&](Index f) {
-      const auto& corners = surface.surface().facets()[at(f)].node;
+      const std::array<Index, 4> corners = surface.surface().facet(f).node;
       if (!surface.active(f) || std::find(corners.begin(), corners.end(), held.nodes()[at(i)]) != corners.end()) return;
       const ClosestPoint c = closest_point(surface.patch(f), x);
       const double distance = std::sqrt(c.squared_distance);
@@ -311,7 +290,8 @@ double Pass::opening_of(const Side& held, const Side& surface, Index i) const {
   }
   if (facet == no_index || nearest.beyond) return none;
   const Measure m = signed_measure(surface, facet, nearest, x);
-  return m.distance - outer_gap(held, surface, i, m, {}, border_strip, false).gap;
+  Looks looks(surface, x);
+  return m.distance - outer_gap(held, surface, i, m, {}, border_strip, false, looks).gap;
 }
 
 void Pass::add_nodal_contact(const Side& held, const Side& surface, std::span<NodalContact> nodes) const {

@@ -58,7 +58,9 @@ struct Switched {
       const double work = 0.25 * (1.0 + longer) * (inwards + next / longer);  // of a unit force, as it changes the speed
       if (work <= 0.1 * inwards) break;                                       // turns around: no work to correct
       // Long steps of a light node: the sum of the two forces cannot be had, and the account settles the rest at the end.
+      const double last = f;
       f = std::clamp(missing(s.penetration + next, next) / work, -plain, 2.0 * plain);
+      if (f == last) break;
     }
     f = std::min(f, 2.0 * plain);
     return {f, 0.5 * f * inwards};
@@ -76,7 +78,9 @@ struct Switched {
   for (int i = 0; i < iterations; ++i) {
     next = outwards + kick * f + drift;
     if (next <= 0.0) return {plain, stored};
+    const double last = f;
     f = 2.0 * work / (outwards + next);
+    if (f == last) break;
   }
   return {f, work - 0.5 * f * outwards};
 }

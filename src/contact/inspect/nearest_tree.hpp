@@ -20,8 +20,12 @@ class NearestTree {
     nodes_.shrink_to_fit();
   }
 
-  /// The same items elsewhere.
+  /// Frees what refit() makes again.
+  void forget_bounds() { std::vector<Node>().swap(nodes_); }
+
+  /// The same items elsewhere: the same tree with other bounds.
   void refit(std::span<const CoarseBounds> boxes) {
+    if (nodes_.empty() && !items_.empty()) join(0, static_cast<Index>(items_.size()));
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children have higher numbers
       Node& node = nodes_[n];
       node.bounds = CoarseBounds();
@@ -50,6 +54,7 @@ class NearestTree {
     CoarseBounds bounds;
     Index first = 0, second = 0, count = 0;  // leaf (count > 0): first item; else two children
   };
+  static constexpr Index leaf = 4;  // items, at most
   std::vector<Node> nodes_;
   std::vector<Index> items_;
 
@@ -67,7 +72,7 @@ class NearestTree {
       node.bounds.include(boxes[static_cast<std::size_t>(i)]);
       centres.include(centre(i));
     }
-    if (last - first <= 4) {
+    if (last - first <= leaf) {
       node.first = first;
       node.count = last - first;
     } else {
@@ -80,6 +85,23 @@ class NearestTree {
       });
       node.first = split(boxes, first, middle);
       node.second = split(boxes, middle, last);
+    }
+    nodes_[static_cast<std::size_t>(number)] = node;
+    return number;
+  }
+
+  /// The nodes of split() over items that it has ordered.
+  Index join(Index first, Index last) {
+    const auto number = static_cast<Index>(nodes_.size());
+    nodes_.emplace_back();
+    Node node;
+    if (last - first <= leaf) {
+      node.first = first;
+      node.count = last - first;
+    } else {
+      const Index middle = first + (last - first) / 2;
+      node.first = join(first, middle);
+      node.second = join(middle, last);
     }
     nodes_[static_cast<std::size_t>(number)] = node;
     return number;

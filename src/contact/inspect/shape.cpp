@@ -100,6 +100,7 @@ void Shape::move(const InspectedSide& side, std::span<const Vec3> x) {
 void Shape::keep_connections() {
   const auto release = [](auto&... values) { (std::remove_reference_t<decltype(values)>().swap(values), ...); };  // = {} keeps the memory
   release(centre_, normal_, area_, box_, shared_);
+  tree_.forget_bounds();
 }
 
 void Shape::forget_shared_edges() { std::vector<Shared>().swap(shared_); }

@@ -21,9 +21,9 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
 
 }  // namespace
 
-void SurfaceValues::take(const SurfaceState& state) {
-  replace(stiffness, state.stiffness);
-  replace(thickness, state.thickness);
+void SurfaceFlags::take(const SurfaceState& state) {
+  stiffness = stiffness || !state.stiffness.empty();
+  thickness = thickness || !state.thickness.empty();
   replace(active, state.active);
   replace(node_active, state.node_active);
 }

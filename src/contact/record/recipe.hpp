@@ -18,9 +18,16 @@ struct SurfaceValues {
   std::vector<double> stiffness, thickness;
   std::vector<std::uint8_t> active, node_active;
 
+  [[nodiscard]] SurfaceState spans() const { return {stiffness, thickness, active, node_active}; }
+};
+
+/// What of it was given, and what a side does not know of it.
+struct SurfaceFlags {
+  bool stiffness = false, thickness = false;
+  std::vector<std::uint8_t> active, node_active;
+
   /// Spans that are not empty replace what is there.
   void take(const SurfaceState& state);
-  [[nodiscard]] SurfaceState spans() const { return {stiffness, thickness, active, node_active}; }
 };
 
 struct Recipe {

@@ -85,13 +85,16 @@ class BoxTree {
   /// How many boxes there are, and box i, to be set before update().
   void resize(std::size_t count) { boxes_.resize(count); }
   void set(Index i, const Bounds& box) { boxes_[static_cast<std::size_t>(i)] = CoarseBounds(box); }
-  /// Box i or a little more.
+  /// Frees the boxes until resize(): query() then visits all of a leaf that meets.
+  void forget_boxes() { std::vector<CoarseBounds>().swap(boxes_); }
+  /// Box i or a little more. @pre not forgotten
   [[nodiscard]] Bounds box(Index i) const { return boxes_[static_cast<std::size_t>(i)].bounds(); }
   /// Makes the tree of the boxes: median splits along the widest side, leaves of at most eight boxes. Where the boxes of the last time have
   /// only moved, its nodes get new bounds, as long as these are not much larger.
   void update();
 
-  /// Calls visit(i) for every box i that meets `query`, and perhaps for some that come as near to it as rounding.
+  /// Calls visit(i) for every box i that meets `query`, and perhaps for some that come as near to it as rounding (or, with boxes forgotten,
+  /// as near as others of their leaf).
   template <class Visit>
   void query(const Bounds& query, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -105,7 +108,7 @@ class BoxTree {
       if (node.count > 0) {
         for (Index k = node.first; k < node.first + node.count; ++k) {
           const Index box = items_[static_cast<std::size_t>(k)];
-          if (boxes_[static_cast<std::size_t>(box)].meets(coarse)) visit(box);
+          if (boxes_.empty() || boxes_[static_cast<std::size_t>(box)].meets(coarse)) visit(box);
         }
       } else {
         stack[depth++] = node.first;

@@ -32,29 +32,26 @@ Patch widest(const Side& surface, Index f) {
 
 void Positions::keep(std::span<const Vec3> x) {
   x_.resize(x.size());
+  Bounds all;
+  for (const Vec3& p : x) all.include(p);
+  low_ = x.empty() ? Vec3{} : all.low;
+  unit_ = x.empty() ? Vec3{} : (all.high - all.low) / static_cast<double>(largest);
   double squared = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    x_[i] = {static_cast<float>(x[i].x), static_cast<float>(x[i].y), static_cast<float>(x[i].z)};
-    squared = std::max(squared, squared_norm(x[i] - Vec3{x_[i][0], x_[i][1], x_[i][2]}));
+    x_[i] = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double part = unit_[axis] > 0.0 ? (x[i][axis] - low_[axis]) / unit_[axis] + 0.5 : 0.0;
+      x_[i] |= std::min(static_cast<std::uint64_t>(part), largest) << (static_cast<std::uint64_t>(axis) * bits);
+    }
+    squared = std::max(squared, squared_norm(x[i] - kept(i)));
   }
   error_ = std::sqrt(squared);
 }
 
 double Positions::largest_motion(std::span<const Vec3> x, const Vec3& common) const {
   double squared = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    squared = std::max(squared, squared_norm(x[i] - Vec3{x_[i][0], x_[i][1], x_[i][2]} - common));
-  }
+  for (std::size_t i = 0; i < x.size(); ++i) { squared = std::max(squared, squared_norm(x[i] - kept(i) - common)); }
   return std::sqrt(squared) + error_;
-}
-
-double lowest_over_borders(const Side& surface, const Candidates& lists, Index node, const Vec3& x) {
-  double least = 1e300;
-  for (const Candidates::Entry& entry : lists.of(node)) {
-    if (surface.borders(entry.facet) == 0 || !surface.active(entry.facet)) continue;
-    least = std::min(least, height_over(surface.patch(entry.facet), x));
-  }
-  return least;
 }
 
 bool Candidates::update(const Side& held, const Side& surface, const Motion& motion, const std::function<double(Index)>& reach, double skin,
@@ -78,6 +75,7 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
   for (Index f = 0; f < surface.facet_count(); ++f) tree_.set(f, facet_bounds(widest(surface, f)));
   tree_.update();
   make(held, surface, reach, skin, executor);
+  tree_.forget_boxes();  // near() is asked by few, who measure what they meet
   return true;
 }
 
@@ -121,7 +119,7 @@ void Candidates::list(const Side& held, const Side& surface, Index node, double 
   box.inflate(limit);
   tree_.query(box, [&](Index f) {
     if (!surface.active(f)) return;
-    for (const Index n : surface.surface().facets()[at(f)].node) {
+    for (const std::array<Index, 4> corners = surface.surface().facet(f).node; const Index n : corners) {
       if (n == held.nodes()[at(node)]) return;  // nobody touches a facet of its own
     }
     // Lower bounds: who needs the distance measures it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
@@ -31,7 +32,7 @@ class Due {
   }
 };
 
-/// Positions in single precision, and how far they may be from the true ones.
+/// Positions as parts of their extent, 21 bits for each coordinate, and how far they may be from the true ones.
 class Positions {
  public:
   void keep(std::span<const Vec3> x);
@@ -39,8 +40,15 @@ class Positions {
   [[nodiscard]] double largest_motion(std::span<const Vec3> x, const Vec3& common) const;
 
  private:
-  std::vector<std::array<float, 3>> x_;
+  static constexpr std::uint64_t bits = 21, largest = (std::uint64_t{1} << bits) - 1;
+  std::vector<std::uint64_t> x_;
+  Vec3 low_, unit_;
   double error_ = 0.0;
+
+  [[nodiscard]] Vec3 kept(std::size_t i) const {
+    const auto part = [this, i](std::uint64_t axis) { return static_cast<double>(x_[i] >> (axis * bits) & largest); };
+    return {low_.x + unit_.x * part(0), low_.y + unit_.y * part(1), low_.z + unit_.z * part(2)};
+  }
 };
 
 /// Lists hold every active facet whose distance to the node is at most its reach, now and until slack() exceeds the skin.
@@ -97,7 +105,8 @@ class Candidates {
   void set_others(Index node, const Others& others) { others_[at(node)] = {others.facet + 1, others.wide, false, others.due}; }
   /// Upper bound of the change of any node-to-facet distance since the lists were made.
   [[nodiscard]] double slack() const { return slack_; }
-  /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box.
+  /// Facets whose box at the last build, moved with the surface, comes within `margin` (beyond slack) of the box, and some of their
+  /// neighbours.
   template <class Visit>
   void near(Bounds box, double margin, Visit&& visit) const {
     box.low -= shift_;
@@ -120,9 +129,6 @@ class Candidates {
   void make(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, const Executor& executor);
   void list(const Side& held, const Side& surface, Index node, double reach, double skin, std::vector<Entry>& entries);
 };
-
-/// Least height of a point over the planes of those of a node's listed facets that have free borders; 1e300: none.
-[[nodiscard]] double lowest_over_borders(const Side& surface, const Candidates& lists, Index node, const Vec3& x);
 
 /// Box of a facet with its strips.
 [[nodiscard]] Bounds facet_bounds(const Patch& patch);

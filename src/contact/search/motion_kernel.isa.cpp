@@ -1,20 +1,20 @@
 #include "contact/search/motion_kernel.hpp"
 
-#include "simd/gather.hpp"
+#include "simd/four.hpp"
 #include "simd/isa_object.hpp"
 
 namespace abut::contact::ABUT_ISA {
 
 namespace {
 
-using Four = simd::Pack<4>;
+using simd::Four;
 using V = simd::Triple<Four>;
 
 ABUT_INLINE V all(const double* a) { return {Four(a[0]), Four(a[1]), Four(a[2])}; }
 ABUT_INLINE Four square(const V& a) { return dot(a, a); }
 ABUT_INLINE double largest(Four a) {
   double each[4];
-  simd::store<4>(each, a);
+  simd::store(each, a);
   return simd::max(simd::max(each[0], each[1]), simd::max(each[2], each[3]));
 }
 
@@ -39,7 +39,7 @@ MotionPart motions(const MotionArgs& args, std::size_t begin, std::size_t end) {
         counts[k] = i + k < last ? 1.0 : 0.0;
       }
       const V d = simd::gather3(args.x + 3 * i, own, Four()) - simd::gather3(args.before + 3 * i, own, Four());
-      sum = sum + (i + 4 <= last ? d : simd::load<4>(counts) * d);
+      sum = sum + (i + 4 <= last ? d : simd::load4(counts) * d);
       for (int k = 0; k < 2; ++k) {
         const Four s = square(d - common[k]);
         of_all[k] = simd::max(of_all[k], s);
@@ -53,7 +53,7 @@ MotionPart motions(const MotionArgs& args, std::size_t begin, std::size_t end) {
   const Four sums[3] = {sum.x, sum.y, sum.z};
   for (int k = 0; k < 3; ++k) {
     double each[4];
-    simd::store<4>(each, sums[k]);
+    simd::store(each, sums[k]);
     part.sum[k] = ((each[0] + each[1]) + each[2]) + each[3];
   }
   for (int k = 0; k < 2; ++k) part.largest[k] = largest(of_all[k]);

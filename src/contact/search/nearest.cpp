@@ -30,44 +30,40 @@ Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest
   return m;
 }
 
-Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
+Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, Looks& looks) {
   constexpr double rounding = 1.0 + 1e-12;  // of the clock's sums
   const Candidates::Others last = candidates.others(node);
   if (last.facet != no_index && (held.facet == no_index || held.facet == last.facet) && surface.active(last.facet) &&
       (last.wide || held.strip <= border_strip)) {
     // The facet that was the nearest, as long as no other can be: what the search below would say, without looking at the list.
-    const ClosestPoint again = closest_point(extended(surface, last.facet, held.strip), x);
-    const double distance = std::sqrt(again.squared_distance);
+    const double distance = std::sqrt(looks.closest(last.facet, held.strip).squared_distance);
     if (last.due - candidates.clock() > rounding * distance) {
       candidates.set_nearest_due(node, distance + candidates.clock());
-      return signed_measure(surface, last.facet, again, x);
+      return looks.measure(last.facet, held.strip);
     }
   }
   Measure best;
   bool held_in_front = false;
   double best_distance = 1e300;
   if (held.facet != no_index && surface.active(held.facet)) {
-    best = signed_measure(surface, held.facet, closest_point(extended(surface, held.facet, held.strip), x), x);
+    best = looks.measure(held.facet, held.strip);
     held_in_front = best.distance >= 0.0;
     best_distance = std::sqrt(best.closest.squared_distance);
   }
-  ClosestPoint closest;
   Index facet = no_index;
   const double clock = candidates.clock();
   const bool wide = held.strip > border_strip;  // the lists' distances are those of the usual strips
   const auto known = [&](const Candidates::Entry& entry) { return !wide || entry.wide || surface.borders(entry.facet) == 0; };
   double least = best_distance;
   const auto try_entry = [&](Candidates::Entry& entry) {
-    const ClosestPoint other = closest_point(extended(surface, entry.facet, held.strip), x);
-    const double distance = std::sqrt(other.squared_distance);
+    const double distance = std::sqrt(looks.closest(entry.facet, held.strip).squared_distance);
     entry.due = distance + clock;
     entry.wide = wide;
     least = std::min(least, distance);
     const bool nearer = distance < best_distance || (distance == best_distance && facet != no_index && entry.facet < facet);
     if (!nearer) return;
-    if (held.facet != no_index && !admissible(signed_measure(surface, entry.facet, other, x), held, held_in_front)) return;
+    if (held.facet != no_index && !admissible(looks.measure(entry.facet, held.strip), held, held_in_front)) return;
     best_distance = distance;
-    closest = other;
     facet = entry.facet;
   };
   const std::span<Candidates::Entry> entries = candidates.of(node);
@@ -102,7 +98,7 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   }
   if (!listed) others.facet = no_index;
   candidates.set_others(node, others);
-  return facet == no_index ? best : signed_measure(surface, facet, closest, x);
+  return facet == no_index ? best : looks.measure(facet, held.strip);
 }
 
 bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance) {

@@ -1,6 +1,9 @@
 // The truth about one node: the closest point of the one-sided surface (docs/theory/contact.md, "Who touches").
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "contact/search/candidates.hpp"
 
 namespace abut::contact {
@@ -20,6 +23,61 @@ struct Measure {
 /// Gives the closest point on facet f its sign and direction.
 [[nodiscard]] Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest, const Vec3& x);
 
+/// Facet f extended beyond its free borders by `strip` of a side.
+[[nodiscard]] inline Patch extended(const Side& surface, Index f, double strip) {
+  Patch patch = surface.patch(f);
+  patch.strip = strip;
+  return patch;
+}
+
+/// What was found when a node was measured against facets: each of them is looked at once, however many questions are asked about it.
+class Looks {
+ public:
+  Looks(const Side& surface, const Vec3& x) : surface_(surface), x_(x) {}
+
+  [[nodiscard]] bool has(Index f, double strip) const { return find(f, strip) < places; }
+  /// Closest point on facet f with strips as wide as this. Valid until the next call.
+  [[nodiscard]] const ClosestPoint& closest(Index f, double strip) { return look(f, strip).measure.closest; }
+  /// The same with its sign and direction.
+  [[nodiscard]] const Measure& measure(Index f, double strip) {
+    Look& one = look(f, strip);
+    if (!one.is_signed) {
+      one.measure = signed_measure(surface_, f, one.measure.closest, x_);
+      one.is_signed = true;
+    }
+    return one.measure;
+  }
+
+ private:
+  struct Look {
+    Measure measure;
+    double strip;
+    bool is_signed;
+  };
+  static constexpr std::size_t places = 6;
+  const Side& surface_;
+  Vec3 x_;
+  std::array<Look, places> look_;
+  std::size_t count_ = 0;
+
+  [[nodiscard]] std::size_t find(Index f, double strip) const {
+    for (std::size_t k = 0; k < std::min(count_, places); ++k) {
+      if (look_[k].measure.facet == f && look_[k].strip == strip) return k;
+    }
+    return places;
+  }
+  Look& look(Index f, double strip) {
+    const std::size_t known = find(f, strip);
+    if (known < places) return look_[known];
+    Look& one = look_[count_++ % places];
+    one.measure.facet = f;
+    one.measure.closest = closest_point(extended(surface_, f, strip), x_);
+    one.strip = strip;
+    one.is_signed = false;
+    return one;
+  }
+};
+
 /// What a held node remembers.
 struct HeldBy {
   Index facet = no_index;  ///< no_index: a free node
@@ -31,7 +89,11 @@ struct HeldBy {
 /// about the same direction (n . n_held > -1/2), or any facet it is in front of while it is in front of its own: it is so
 /// never handed to the far side of a thin body.
 /// Distances that it measures go back into the node's list.
-[[nodiscard]] Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held);
+[[nodiscard]] Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, Looks& looks);
+[[nodiscard]] inline Measure nearest(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held) {
+  Looks looks(surface, x);
+  return nearest(surface, candidates, node, x, held, looks);
+}
 
 /// No listed facet but the one that holds the node comes within `distance` of it, by bounds that go back into its list. False where bounds
 /// do not tell, or where that facet is not listed.
@@ -39,12 +101,5 @@ struct HeldBy {
 
 /// It pushes in about the direction of `normal`.
 [[nodiscard]] inline bool pushes_alike(const Measure& m, const Vec3& normal) { return dot(m.normal, normal) > -0.5; }
-
-/// Facet f extended beyond its free borders by `strip` of a side.
-[[nodiscard]] inline Patch extended(const Side& surface, Index f, double strip) {
-  Patch patch = surface.patch(f);
-  patch.strip = strip;
-  return patch;
-}
 
 }  // namespace abut::contact

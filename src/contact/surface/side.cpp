@@ -1,10 +1,12 @@
 #include "contact/surface/side.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace abut::contact {
 namespace {
@@ -19,31 +21,44 @@ double angle_from_cosine(double c) {
 
 }  // namespace
 
-Side::Side(Surface surface, bool canonical) : surface_(std::move(surface)) {
-  listed_.resize(at(surface_.facet_count()));
-  std::iota(listed_.begin(), listed_.end(), 0);
-  if (canonical) {
-    listed_ = surface_.canonical_order();
-    surface_ = surface_.reordered(listed_);
+Values::Values(std::vector<double> values) : count_(values.size()) {
+  const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v); };
+  const bool alike =
+      !values.empty() && std::all_of(values.begin(), values.end(), [&](double v) { return bits(v) == bits(values.front()); });
+  if (alike) {
+    each_ = 0;
+    values_.push_back(values.front());
+  } else {
+    values_ = std::move(values);
   }
-  nodes_.assign(surface_.nodes().begin(), surface_.nodes().end());
-  x_.resize(nodes_.size());
-  active_.assign(listed_.size(), 1);
-  borders_.assign(listed_.size(), 0);
-  facet_stiffness_.assign(listed_.size(), 0.0);
-  node_active_.assign(nodes_.size(), 1);
-  node_stiffness_.assign(nodes_.size(), 0.0);
-  corner_stiffness_.assign(nodes_.size(), 0.0);
 }
 
-Side::Side(std::vector<Index> nodes, std::vector<double> stiffness) : nodes_(std::move(nodes)), node_stiffness_(std::move(stiffness)) {
+Side::Side(Surface surface, bool canonical) {
+  listed_.resize(at(surface.facet_count()));
+  std::iota(listed_.begin(), listed_.end(), 0);
+  if (canonical) {
+    listed_ = surface.canonical_order();
+    surface = surface.reordered(listed_);
+  }
+  surface_ = std::move(static_cast<SurfaceTopology&>(surface));  // facets by host nodes follow from it
+  x_.resize(surface_.nodes().size());
+  active_.assign(listed_.size(), 1);
+  borders_.assign(listed_.size(), 0);
+  facet_stiffness_ = Values(std::vector<double>(listed_.size(), 0.0));
+  node_active_.assign(x_.size(), 1);
+  node_stiffness_ = Values(std::vector<double>(x_.size(), 0.0));
+  corner_stiffness_ = node_stiffness_;
+}
+
+Side::Side(std::vector<Index> nodes, std::vector<double> stiffness)
+    : nodes_(std::move(nodes)), node_stiffness_(Values(std::move(stiffness))) {
   x_.resize(nodes_.size());
   node_active_.assign(nodes_.size(), 1);
 }
 
 void Side::set(const SurfaceState& state, bool third_node_twice) {
   const bool facets = surface_.facet_count() > 0;
-  const std::size_t count = facets ? listed_.size() : nodes_.size();
+  const std::size_t count = facets ? listed_.size() : x_.size();
   const auto check = [count](std::size_t length, const char* what) {
     if (length != 0 && length != count) {
       throw std::invalid_argument("contact: " + std::to_string(length) + " values of " + what + " for " + std::to_string(count));
@@ -52,9 +67,9 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   check(state.stiffness.size(), "stiffness");
   check(state.thickness.size(), "thickness");
   check(state.active.size(), "activity");
-  if (!state.node_active.empty() && state.node_active.size() != nodes_.size()) {
+  if (!state.node_active.empty() && state.node_active.size() != x_.size()) {
     throw std::invalid_argument("contact: " + std::to_string(state.node_active.size()) + " values of node activity for " +
-                                std::to_string(nodes_.size()));
+                                std::to_string(x_.size()));
   }
   for (std::size_t i = 0; i < state.stiffness.size(); ++i) {
     if (!(state.stiffness[i] >= 0.0) || !std::isfinite(state.stiffness[i])) {
@@ -67,22 +82,25 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     }
   }
   if (!facets) {
-    if (!state.stiffness.empty()) node_stiffness_.assign(state.stiffness.begin(), state.stiffness.end());
-    if (!state.thickness.empty()) node_thickness_.assign(state.thickness.begin(), state.thickness.end());
+    if (!state.stiffness.empty()) node_stiffness_ = Values({state.stiffness.begin(), state.stiffness.end()});
+    if (!state.thickness.empty()) node_thickness_ = Values({state.thickness.begin(), state.thickness.end()});
     for (std::size_t i = 0; i < state.active.size(); ++i) node_active_[i] = state.active[i];
     return;
   }
 
-  if (!state.thickness.empty()) thickness_.resize(count);
-  for (std::size_t f = 0; f < count; ++f) {
-    const std::size_t from = at(listed_[f]);
-    if (!state.stiffness.empty()) facet_stiffness_[f] = state.stiffness[from];
-    if (!state.thickness.empty()) thickness_[f] = state.thickness[from];
-    if (!state.active.empty()) active_[f] = state.active[from];
-  }
+  const auto take = [this](std::span<const double> given, Values& values) {
+    if (given.empty()) return;
+    std::vector<double> mine;
+    mine.reserve(given.size());
+    for (const Index from : listed_) mine.push_back(given[at(from)]);
+    values = Values(std::move(mine));
+  };
+  take(state.stiffness, facet_stiffness_);
+  take(state.thickness, thickness_);
+  for (std::size_t f = 0; f < state.active.size(); ++f) active_[f] = state.active[at(listed_[f])];
   for (Index f = 0; f < surface_.facet_count(); ++f) {
     unsigned borders = 0;
-    for (int e = 0; e < surface_.facets()[at(f)].corners(); ++e) {
+    for (int e = 0; e < surface_.corners(f); ++e) {
       const Index other = surface_.neighbour(f, e);
       if (surface_.free_border(f, e) || (other != no_index && !active(other))) borders |= 1u << e;
     }
@@ -91,16 +109,16 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   largest_corner_stiffness_ = 0.0;
   smallest_corner_stiffness_ = 1e300;
   double thinnest = 1e300, thickest = 0.0;  // of active corners
-  if (!thickness_.empty()) node_thickness_.resize(nodes_.size());
+  std::vector<double> of_node(x_.size()), of_corner(x_.size()), thick_at(thickness_.empty() ? 0 : x_.size());
   for (Index s = 0; s < node_count(); ++s) {
     double sum = 0.0;
     double mean = 0.0, thick = 0.0;
     int around = 0;
     for (const Index f : surface_.facets_at(s)) {
       if (!active(f) && state.node_active.empty()) continue;
-      const Facet& facet = surface_.facets()[at(f)];
-      double share = facet.is_triangle() ? 1.0 / 3.0 : 0.25;
-      if (facet.is_triangle() && third_node_twice) share = surface_.local()[at(f)][2] == s ? 0.5 : 0.25;
+      const bool triangle = surface_.is_triangle(f);
+      double share = triangle ? 1.0 / 3.0 : 0.25;
+      if (triangle && third_node_twice) share = surface_.local()[at(f)][2] == s ? 0.5 : 0.25;
       sum += share * facet_stiffness(f);
       if (!active(f)) continue;
       mean += facet_stiffness(f);
@@ -108,15 +126,24 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
       ++around;
     }
     node_active_[at(s)] = state.node_active.empty() ? (around > 0 ? 1 : 0) : state.node_active[at(s)];
-    node_stiffness_[at(s)] = sum;
-    corner_stiffness_[at(s)] = around > 0 ? mean / around : 0.0;
-    largest_corner_stiffness_ = std::max(largest_corner_stiffness_, corner_stiffness_[at(s)]);
-    if (around > 0) smallest_corner_stiffness_ = std::min(smallest_corner_stiffness_, corner_stiffness_[at(s)]);
-    if (!thickness_.empty()) node_thickness_[at(s)] = around > 0 ? thick / around : 0.0;
+    of_node[at(s)] = sum;
+    of_corner[at(s)] = around > 0 ? mean / around : 0.0;
+    largest_corner_stiffness_ = std::max(largest_corner_stiffness_, of_corner[at(s)]);
+    if (around > 0) smallest_corner_stiffness_ = std::min(smallest_corner_stiffness_, of_corner[at(s)]);
+    if (!thickness_.empty()) thick_at[at(s)] = around > 0 ? thick / around : 0.0;
     if (around > 0) thinnest = std::min(thinnest, thick / around);
     if (around > 0) thickest = std::max(thickest, thick / around);
   }
+  node_stiffness_ = Values(std::move(of_node));
+  corner_stiffness_ = Values(std::move(of_corner));
+  node_thickness_ = Values(std::move(thick_at));
   evenly_thick_ = thinnest >= (1.0 - 1e-9) * thickest;
+}
+
+std::vector<double> Side::as_listed(const Values& values) const {
+  std::vector<double> out(values.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[listed_.empty() ? i : at(listed_[i])] = values[i];
+  return out;
 }
 
 double Side::thickness_at(Index f, const std::array<double, 4>& weight) const {
@@ -134,12 +161,13 @@ double Side::thickness_at(Index f, const std::array<double, 4>& weight) const {
 
 double Side::largest_thickness() const {
   double largest = 0.0;
-  for (const double t : node_thickness_) largest = std::max(largest, t);
+  for (std::size_t s = 0; s < node_thickness_.size(); ++s) largest = std::max(largest, node_thickness_[s]);
   return largest;
 }
 
 void Side::gather(std::span<const Vec3> x, std::size_t begin, std::size_t end) {
-  for (std::size_t s = begin; s < end; ++s) x_[s] = x[at(nodes_[s])];
+  const std::span<const Index> nodes = Side::nodes();
+  for (std::size_t s = begin; s < end; ++s) x_[s] = x[at(nodes[s])];
 }
 
 Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
@@ -151,7 +179,7 @@ Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
     const Index other = surface_.neighbour(f, point.number);
     if (other == no_index || !active(other)) return normal;
     // The facet across: its normal at the same point of the shared edge.
-    const int corners = surface_.facets()[at(f)].corners();
+    const int corners = surface_.corners(f);
     const Index end = local[static_cast<std::size_t>((point.number + 1) % corners)];
     const Patch across = patch(other);
     const double along = point.weight[static_cast<std::size_t>((point.number + 1) % corners)];
@@ -174,7 +202,7 @@ Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
   for (const Index g : surface_.facets_at(node)) {
     if (!active(g)) continue;
     const std::array<Index, 4>& theirs = surface_.local()[at(g)];
-    const std::size_t corners = static_cast<std::size_t>(surface_.facets()[at(g)].corners());
+    const std::size_t corners = static_cast<std::size_t>(surface_.corners(g));
     std::size_t here = 0;
     while (here < corners && theirs[here] != node) ++here;
     const Vec3 next = normalized(x_[at(theirs[(here + 1) % corners])] - x_[at(node)]);
@@ -186,16 +214,15 @@ Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
 
 double Side::facet_area(Index f) const {
   const std::array<Index, 4>& local = surface_.local()[at(f)];
-  const Vec3 doubled =
-      cross(x_[at(local[2])] - x_[at(local[0])],
-            surface_.facets()[at(f)].is_triangle() ? x_[at(local[1])] - x_[at(local[0])] : x_[at(local[3])] - x_[at(local[1])]);
+  const Vec3 doubled = cross(x_[at(local[2])] - x_[at(local[0])],
+                             surface_.is_triangle(f) ? x_[at(local[1])] - x_[at(local[0])] : x_[at(local[3])] - x_[at(local[1])]);
   return 0.5 * norm(doubled);
 }
 
 double Side::tributary_area(Index s) const {
   double sum = 0.0;
   for (const Index f : surface_.facets_at(s)) {
-    if (active(f)) sum += facet_area(f) / surface_.facets()[at(f)].corners();
+    if (active(f)) sum += facet_area(f) / surface_.corners(f);
   }
   return sum;
 }

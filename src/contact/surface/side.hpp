@@ -13,6 +13,20 @@ namespace abut::contact {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// Numbers of facets or nodes. Where all are alike, as of an even mesh of one part, they take the room of one.
+class Values {
+ public:
+  Values() = default;
+  explicit Values(std::vector<double> values);
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] double operator[](std::size_t i) const { return values_[i & each_]; }
+
+ private:
+  std::size_t count_ = 0, each_ = ~std::size_t{0};  ///< each_: 0 where one stands for all
+  std::vector<double> values_;
+};
+
 class Side {
  public:
   Side() = default;
@@ -25,12 +39,15 @@ class Side {
   /// @throws std::invalid_argument on a wrong length or a negative or non-finite stiffness or thickness
   void set(const SurfaceState& state, bool third_node_twice);
 
-  [[nodiscard]] const Surface& surface() const { return surface_; }
-  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }
-  [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
+  [[nodiscard]] const SurfaceTopology& surface() const { return surface_; }
+  [[nodiscard]] std::span<const Index> nodes() const { return facet_count() > 0 ? surface_.nodes() : std::span<const Index>(nodes_); }
+  [[nodiscard]] Index node_count() const { return static_cast<Index>(x_.size()); }
   [[nodiscard]] Index facet_count() const { return surface_.facet_count(); }
   /// Position of facet f in the host's list.
   [[nodiscard]] Index listed(Index f) const { return listed_[at(f)]; }
+  /// What set() was given last, in the host's order.
+  [[nodiscard]] std::vector<double> listed_stiffness() const { return as_listed(facet_count() > 0 ? facet_stiffness_ : node_stiffness_); }
+  [[nodiscard]] std::vector<double> listed_thickness() const { return as_listed(facet_count() > 0 ? thickness_ : node_thickness_); }
   [[nodiscard]] bool active(Index f) const { return active_[at(f)] != 0; }
   /// False when all facets around the node are eroded.
   [[nodiscard]] bool node_active(Index s) const { return node_active_[at(s)] != 0; }
@@ -55,7 +72,7 @@ class Side {
   [[nodiscard]] std::uint8_t borders(Index f) const { return borders_[at(f)]; }
 
   /// Copies the host's positions of this surface's nodes.
-  void gather(std::span<const Vec3> x) { gather(x, 0, nodes_.size()); }
+  void gather(std::span<const Vec3> x) { gather(x, 0, x_.size()); }
   /// Those of nodes begin to end - 1.
   void gather(std::span<const Vec3> x, std::size_t begin, std::size_t end);
   [[nodiscard]] std::span<const Vec3> x() const { return x_; }
@@ -77,14 +94,16 @@ class Side {
   [[nodiscard]] double mean_size() const;
 
  private:
-  Surface surface_;
-  std::vector<Index> nodes_;
+  SurfaceTopology surface_;
+  std::vector<Index> nodes_;   ///< without facets
   std::vector<Index> listed_;  ///< facet number as the host listed it
   std::vector<std::uint8_t> active_, node_active_, borders_;
-  std::vector<double> facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_, node_thickness_;
+  Values facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_, node_thickness_;
   double largest_corner_stiffness_ = 0.0, smallest_corner_stiffness_ = 0.0;  ///< of active corners
   bool evenly_thick_ = true;
   std::vector<Vec3> x_;
+
+  [[nodiscard]] std::vector<double> as_listed(const Values& values) const;
 };
 
 }  // namespace abut::contact

@@ -71,17 +71,19 @@ Surface::Surface(std::vector<Facet> facets, std::span<const Id> node_key) : face
     std::sort(nodes_.begin(), nodes_.end(),
               [node_key](Index a, Index b) { return std::pair(node_key[at(a)], a) < std::pair(node_key[at(b)], b); });
   }
-  connect();
+  connect(facets_);
 }
 
-void Surface::connect() {
-  by_host_.resize(nodes_.size());
-  for (std::size_t s = 0; s < nodes_.size(); ++s) by_host_[s] = {nodes_[s], static_cast<Index>(s)};
-  std::sort(by_host_.begin(), by_host_.end());
+void SurfaceTopology::connect(std::span<const Facet> facets) {
+  if (!std::is_sorted(nodes_.begin(), nodes_.end())) {
+    by_host_.resize(nodes_.size());
+    std::iota(by_host_.begin(), by_host_.end(), Index{0});
+    std::sort(by_host_.begin(), by_host_.end(), [this](Index a, Index b) { return nodes_[at(a)] < nodes_[at(b)]; });
+  }
 
-  local_.resize(facets_.size());
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
-    for (std::size_t i = 0; i < 4; ++i) local_[f][i] = find(facets_[f].node[i]);
+  local_.resize(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::size_t i = 0; i < 4; ++i) local_[f][i] = find(facets[f].node[i]);
   }
 
   const std::vector<FacetKey> keys = sorted_keys(local_);
@@ -93,16 +95,16 @@ void Surface::connect() {
   }
 
   at_first_.assign(nodes_.size() + 1, 0);
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
-    for (int i = 0; i < facets_[f].corners(); ++i) ++at_first_[at(local_[f][static_cast<std::size_t>(i)]) + 1];
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (int i = 0; i < facets[f].corners(); ++i) ++at_first_[at(local_[f][static_cast<std::size_t>(i)]) + 1];
   }
   std::partial_sum(at_first_.begin(), at_first_.end(), at_first_.begin());
   at_facet_.resize(at(at_first_.back()));
   std::vector<Index> next(at_first_.begin(), at_first_.end() - 1);
   std::vector<Edge> edges;
-  edges.reserve(facets_.size() * 4);
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
-    const int corners = facets_[f].corners();
+  edges.reserve(facets.size() * 4);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const int corners = facets[f].corners();
     for (int i = 0; i < corners; ++i) {
       const Index a = local_[f][static_cast<std::size_t>(i)];
       const Index b = local_[f][static_cast<std::size_t>((i + 1) % corners)];
@@ -111,8 +113,8 @@ void Surface::connect() {
     }
   }
 
-  neighbours_.assign(facets_.size(), {no_index, no_index, no_index, no_index});
-  borders_.assign(facets_.size(), 0);
+  neighbours_.assign(facets.size(), {no_index, no_index, no_index, no_index});
+  borders_.assign(facets.size(), 0);
   std::sort(edges.begin(), edges.end(),
             [](const Edge& a, const Edge& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.facet < b.facet; });
   for (std::size_t first = 0; first < edges.size();) {
@@ -130,19 +132,24 @@ void Surface::connect() {
   }
 }
 
-std::span<const Index> Surface::facets_at(Index s) const {
+std::span<const Index> SurfaceTopology::facets_at(Index s) const {
   const auto first = at(at_first_[at(s)]);
   return std::span(at_facet_).subspan(first, at(at_first_[at(s) + 1]) - first);
 }
 
-Index Surface::find(Index host_node) const {
-  const auto found = std::lower_bound(by_host_.begin(), by_host_.end(), std::array{host_node, Index{-1}});
-  return found != by_host_.end() && (*found)[0] == host_node ? (*found)[1] : no_index;
+Index SurfaceTopology::find(Index host_node) const {
+  if (by_host_.empty()) {
+    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), host_node);
+    return found != nodes_.end() && *found == host_node ? static_cast<Index>(found - nodes_.begin()) : no_index;
+  }
+  const auto found =
+      std::lower_bound(by_host_.begin(), by_host_.end(), host_node, [this](Index s, Index node) { return nodes_[at(s)] < node; });
+  return found != by_host_.end() && nodes_[at(*found)] == host_node ? *found : no_index;
 }
 
 std::vector<Index> Surface::canonical_order() const {
   std::vector<Index> order;
-  order.reserve(facets_.size());
+  order.reserve(local_.size());
   for (const FacetKey& key : sorted_keys(local_)) order.push_back(key.facet);
   return order;
 }
@@ -152,7 +159,7 @@ Surface Surface::reordered(std::span<const Index> order) const {
   result.nodes_ = nodes_;
   result.facets_.reserve(order.size());
   for (const Index f : order) result.facets_.push_back(facets_[at(f)]);
-  result.connect();
+  result.connect(result.facets_);
   return result;
 }
 

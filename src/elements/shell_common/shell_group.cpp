@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "elements/shell_common/setup.hpp"
 #include "simd/isa.hpp"
@@ -50,7 +51,7 @@ ShellGroup::ShellGroup(const GroupInput& in, Family family, model::ElementKind k
       per_element_(static_cast<std::size_t>(nodes_per_element)),
       constant_count_(nodes_per_element == 4 ? shell_constant::quad_count : shell_constant::triangle_count) {
   part_ = in.part;
-  elements_ = in.elements;
+  elements_ = std::move(in_.elements);
   layout_.nodes_per_element = nodes_per_element;
   layout_.components = 8;
   layout_.blocks = (size() + lanes - 1) / lanes;
@@ -360,8 +361,7 @@ ElementOutput ShellGroup::output(Index element) const {
 
 PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const {
   if (!shares_.valid) {
-    shares_.mass.assign(chunks_.nodes().size(), 0.0);
-    shares_.inertia.assign(chunks_.nodes().size(), 0.0);
+    std::vector<double> masses(chunks_.nodes().size(), 0.0), inertias(chunks_.nodes().size(), 0.0);
     for (Index e = 0; e < size(); ++e) {
       if (constant(e, shell_constant::active) == 0.0) continue;
       const double share = element_mass(e) / static_cast<double>(per_element_);
@@ -369,10 +369,12 @@ PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w,
       const double t = initial_thickness(e), area = frame(std::span<const Vec3>(x.data(), per_element_)).area;
       for (int k = 0; k < layout_.nodes_per_element; ++k) {
         const std::size_t place = chunks_.place(e, k);
-        shares_.mass[place] += share;
-        shares_.inertia[place] += share * (t * t + area) / 12.0;
+        masses[place] += share;
+        inertias[place] += share * (t * t + area) / 12.0;
       }
     }
+    shares_.mass = FewValues(std::move(masses));
+    shares_.inertia = FewValues(std::move(inertias));
     shares_.valid = true;
   }
   return shares_.sums(chunks_, v, w, pool);

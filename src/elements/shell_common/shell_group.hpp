@@ -60,7 +60,7 @@ class ShellGroup : public Group {
   [[nodiscard]] double& variable(Index element, int which);
   [[nodiscard]] double variable(Index element, int which) const;
 
-  GroupInput in_;
+  GroupInput in_;                        ///< but for `elements`, which are elements_
   std::optional<ShellSection> section_;  ///< none: void, mass only
   int at_frozen_flag_ = -1;              ///< variable that asks for small strain (1/2) or has it (1)
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "core/diagnostic.hpp"
@@ -289,13 +290,14 @@ bool SolidGroup::active(Index element) const { return at(element, f_off) > 0.0; 
 PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const {
   // rho^n V_0 of the reference's small strain changes from cycle to cycle.
   if (!shares_.valid || reference_part_mass_) {
-    shares_.mass.assign(chunks_.nodes().size(), 0.0);
+    std::vector<double> masses(chunks_.nodes().size(), 0.0);
     const double share = 1.0 / nodes_per_element_;
     for (Index e = 0; e < size(); ++e) {
       if (!(at(e, f_live) > 0.0)) continue;
       const double mass = reference_part_mass_ ? at(e, f_density) * at(e, f_volume) : at(e, f_mass);
-      for (int k = 0; k < nodes_per_element_; ++k) shares_.mass[chunks_.place(e, k)] += share * mass;
+      for (int k = 0; k < nodes_per_element_; ++k) masses[chunks_.place(e, k)] += share * mass;
     }
+    shares_.mass = FewValues(std::move(masses));
     shares_.valid = true;
   }
   return shares_.sums(chunks_, v, w, pool);

@@ -4,9 +4,11 @@
 #include <abut/contact/call_log.hpp>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <sstream>
 #include <string>
 
+#include "contact/record/bytes.hpp"
 #include "unit/contact/bench_host.hpp"
 
 namespace abut::contact {
@@ -184,8 +186,7 @@ TEST(CallLog, sees_a_different_result) {
     std::memcpy(&length, patched.data() + start + 8, 8);
     if (at < start + 16 + length) {
       std::memcpy(patched.data() + at, &changed, sizeof changed);
-      std::uint64_t sum = 0xcbf29ce484222325ULL;
-      for (std::size_t b = start; b < start + 16 + length; ++b) sum = (sum ^ static_cast<unsigned char>(patched[b])) * 0x100000001b3ULL;
+      const std::uint64_t sum = checksum(std::as_bytes(std::span(patched)).subspan(start, 16 + length));
       std::memcpy(patched.data() + start + 16 + length, &sum, 8);
       break;
     }
@@ -250,7 +251,7 @@ TEST(History, refuses_other_versions_and_other_interfaces) {
 
   std::vector<std::byte> old = blob;
   old[8] = std::byte{1};
-  EXPECT_NE(restore_refusal(same, old).find("version 1; this library reads version 6"), std::string::npos) << restore_refusal(same, old);
+  EXPECT_NE(restore_refusal(same, old).find("version 1; this library reads version 7"), std::string::npos) << restore_refusal(same, old);
   Interface nodes = make(s, Kind::nodes), both = make(s, Kind::both), reference = make(s, Kind::two, Rules::reference());
   for (Interface* other : {&nodes, &both, &reference}) {
     EXPECT_NE(restore_refusal(*other, blob).find("another interface"), std::string::npos) << restore_refusal(*other, blob);

@@ -24,7 +24,7 @@ class ReportTest : public ::testing::Test {
   void run(const std::vector<double>& times, const std::function<void(std::size_t)>& change = {}) {
     output::RunInfo info;
     info.version = "test";
-    info.contact = findings_;
+    info.contact = std::make_shared<const std::vector<ContactFinding>>(findings_);
     output::SinkSet sinks;
     output::add_run_outputs(sinks, output::RunFolder{folder_.path(), "scene"}, info, {});
     scene_.state.times.t = 0.0;
