@@ -22,6 +22,8 @@ class ContactThickness {
   ContactThickness() = default;
   ContactThickness(const model::Model& model, std::span<const std::unique_ptr<elements::Group>> groups,
                    std::span<const init::RunInterface> interfaces);
+  /// The thickness of some element is followed.
+  [[nodiscard]] bool follows() const { return !followed_.empty(); }
   /// Before the search of a cycle.
   void update(std::int64_t cycle, std::span<const std::unique_ptr<elements::Group>> groups, std::span<init::RunInterface> interfaces);
   /// @param interfaces  when loading they get the values of the checkpoint

@@ -44,8 +44,7 @@ void Cycle::advance(Sink& sink) {
   switch_off_rigid_elements();
   axes_.update(state_);               //  1
   if (loaded_) loads_.apply(state_);  //  3
-  internal_forces(limits);            //  5, 8
-  contact_forces(limits);             //  2, 4, 6, 7
+  forces(limits);                     //  2, 4 to 8
   assemble();                         //  10, 16
   {
     const Timer timer(*this, p_constraints);
@@ -94,6 +93,31 @@ void Cycle::decide_outputs() {
   animation_due_ = t >= next_animation_;
   if (animation_due_) next_animation_ = std::max(t, next_animation_ + c.animation_interval);
   listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
+}
+
+// Elements and contact read the same motion and write what is their own, unless contact is to know what the elements of this cycle become.
+// Side by side a part of one that runs on one thread holds nobody up. What both take together is shared among their phases as they took it.
+void Cycle::forces(StepLimits& limits) {
+  const bool deletes = eroded_ || std::any_of(groups_.begin(), groups_.end(), [](const auto& g) { return g->may_delete(); });
+  if (interfaces_.empty() || deletes || contact_thickness_.follows() || pool_.threads() == 1) {
+    internal_forces(limits);
+    contact_forces(limits);
+    return;
+  }
+  const std::array<double, phase_count> before = seconds_;
+  const std::array<double, 5> families_before = family_seconds_;
+  double together = 0.0;
+  {
+    const Timer timer(together);
+    pool_.both([&] { contact_forces(limits); }, [&] { internal_forces(limits); });
+  }
+  double alone = 0.0;
+  for (const Phase p : {p_elements, p_search, p_contact}) alone += seconds_[p] - before[p];
+  const double share = alone > 0.0 ? together / alone : 0.0;
+  for (const Phase p : {p_elements, p_search, p_contact}) seconds_[p] = before[p] + share * (seconds_[p] - before[p]);
+  for (std::size_t k = 0; k < family_seconds_.size(); ++k) {
+    family_seconds_[k] = families_before[k] + share * (family_seconds_[k] - families_before[k]);
+  }
 }
 
 void Cycle::internal_forces(StepLimits& limits) {

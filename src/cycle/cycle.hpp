@@ -70,6 +70,7 @@ class Cycle {
   void decide_outputs();
   void switch_off_rigid_elements();
   void check_minimum_step(const elements::Group& group, const elements::GroupResult& result) const;
+  void forces(StepLimits& limits);
   void internal_forces(StepLimits& limits);
   void contact_forces(StepLimits& limits);
   void record_contacts();

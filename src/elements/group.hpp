@@ -148,6 +148,8 @@ class Group {
   /// One step: strains over `in.dt`, stresses to t^n, internal forces. Elements that are off or rigid put zeros.
   /// Deterministic for any number of threads.
   virtual GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) = 0;
+  /// A step may delete elements.
+  [[nodiscard]] virtual bool may_delete() const { return false; }
 
   /// Elements wholly inside a rigid body: no force, no step, no part sums (numerics.md 6.2.1).
   virtual void set_rigid(std::span<const std::uint8_t> rigid) = 0;

@@ -1,4 +1,4 @@
-// A fixed set of threads that run one loop at a time.
+// A fixed set of threads that run one loop at a time, or the loops of two tasks side by side.
 #pragma once
 
 #include <cstddef>
@@ -32,10 +32,23 @@ class ThreadPool {
         std::addressof(body));
   }
 
+  /// Two tasks that do not touch each other's data, side by side; each may run loops on this pool. `first` runs on the caller's thread, and
+  /// returns when both have ended. A thread that has nothing to do helps with the loops of either. With one thread, and within a loop or a
+  /// task of this pool: `second`, then `first`. An exception of `second` is rethrown rather than one of `first`.
+  template <class First, class Second>
+  void both(First&& first, Second&& second) {
+    using PlainFirst = std::remove_reference_t<First>;
+    using PlainSecond = std::remove_reference_t<Second>;
+    run_both([](const void* t) { (*static_cast<PlainFirst*>(const_cast<void*>(t)))(); }, std::addressof(first),
+             [](const void* t) { (*static_cast<PlainSecond*>(const_cast<void*>(t)))(); }, std::addressof(second));
+  }
+
  private:
-  // A loop body without ownership: nothing is allocated per loop.
+  // Bodies and tasks without ownership: nothing is allocated per loop.
   using Call = void (*)(const void*, std::size_t, std::size_t);
+  using Task = void (*)(const void*);
   void run(std::size_t count, std::size_t grain, Call call, const void* body);
+  void run_both(Task first, const void* of_first, Task second, const void* of_second);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -161,6 +161,11 @@ bool ShellGroup::acts_on_small_steps() const {
   return in_.step_action == Action::remove || in_.step_action == Action::constant;
 }
 
+bool ShellGroup::may_delete() const {
+  const bool fails = section_ && section_->at_points >= 0 && section_->plastic.eps_max < materials::ShellJohnsonCook{}.eps_max;
+  return section_ && (fails || in_.step_action == model::StepControl::Action::remove);
+}
+
 double ShellGroup::count_on(std::size_t chunk) const {
   double on = 0.0;
   for (std::size_t b = chunks_.first_block(chunk); b < chunks_.end_block(chunk); ++b) {

@@ -35,6 +35,7 @@ class ShellGroup : public Group {
   [[nodiscard]] ElementNodes nodes(Index element) const final;
   void add_masses(std::span<double> mass, std::span<double> inertia) const final;
   GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) final;
+  [[nodiscard]] bool may_delete() const final;
   /// @param rigid one flag per element of the group (group-local index)
   void set_rigid(std::span<const std::uint8_t> rigid) final;
   [[nodiscard]] ElementOutput output(Index element) const final;

@@ -24,6 +24,7 @@ class SolidGroup : public Group {
   [[nodiscard]] ElementNodes nodes(Index element) const override;
   void add_masses(std::span<double> mass, std::span<double> inertia) const override;
   GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) override;
+  [[nodiscard]] bool may_delete() const override { return config_.remove_small_step; }
   /// @param rigid one flag per group-local element
   void set_rigid(std::span<const std::uint8_t> rigid) override;
   [[nodiscard]] ElementOutput output(Index element) const override;

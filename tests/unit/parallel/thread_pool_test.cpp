@@ -1,10 +1,11 @@
-// Loops of the thread pool: ranges that cover every index once, exceptions that reach the caller, loops within loops, and
-// sums whose order depends on the number of terms only.
+// Loops of the thread pool: ranges that cover every index once, exceptions that reach the caller, loops within loops, tasks side by side,
+// and sums whose order depends on the number of terms only.
 #include "parallel/thread_pool.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -118,6 +119,78 @@ TEST(ThreadPool, LoopsWithinALoop) {
     }
   });
   for (const auto& row : visits) EXPECT_EQ(std::count(row.begin(), row.end(), 2), 50);
+}
+
+// Two tasks with loops of their own, of different length: each loop covers its range, in the order of its task, and both have ended.
+TEST(ThreadPool, TwoTasksSideBySide) {
+  for (const int threads : {1, 2, 3, 8}) {
+    ThreadPool pool(threads);
+    std::array<std::vector<std::uint32_t>, 2> visits{std::vector<std::uint32_t>(257, 0), std::vector<std::uint32_t>(1009, 0)};
+    std::array<bool, 2> in_order{true, true};
+    constexpr std::uint32_t rounds = 300;
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+      std::array<bool, 2> ended{};
+      const auto task = [&](std::size_t which, std::uint32_t loops) {
+        for (std::uint32_t k = 0; k < loops; ++k) {
+          pool.for_ranges(visits[which].size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) ++visits[which][i];
+          });
+          const std::vector<std::uint32_t>& mine = visits[which];
+          in_order[which] =
+              in_order[which] && std::all_of(mine.begin(), mine.end(), [&](std::uint32_t n) { return n == round * loops + k + 1; });
+        }
+        ended[which] = true;
+      };
+      pool.both([&] { task(0, 7); }, [&] { task(1, 2); });
+      ASSERT_TRUE(ended[0] && ended[1]) << threads;
+    }
+    EXPECT_TRUE(in_order[0] && in_order[1]) << threads;
+  }
+}
+
+TEST(ThreadPool, AnExceptionOfATaskReachesTheCallerAfterBoth) {
+  for (const int threads : {1, 2, 5}) {
+    ThreadPool pool(threads);
+    for (const auto& [first_throws, second_throws] : {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
+      std::atomic<int> visits{0};
+      std::string message;
+      const auto task = [&](const char* name, bool throws) {
+        pool.for_ranges(100, 1, [&](std::size_t begin, std::size_t end) {
+          visits += static_cast<int>(end - begin);
+          if (throws && begin == 0) throw std::runtime_error(name);
+        });
+      };
+      try {
+        pool.both([&, throws = first_throws] { task("first", throws); }, [&, throws = second_throws] { task("second", throws); });
+      } catch (const std::runtime_error& error) { message = error.what(); }
+      EXPECT_EQ(message, second_throws ? "second" : "first") << threads;
+      // On one thread a task that throws ends the pieces behind it, and the task behind it.
+      if (threads > 1) { EXPECT_EQ(visits, 200) << threads; }
+    }
+    EXPECT_FALSE(ranges_of(pool, 1000, 1).empty()) << "the pool works on";
+  }
+}
+
+// Tasks within a loop or a task run one after the other where they are; loops within the loops of tasks, too.
+TEST(ThreadPool, TasksWithinLoopsAndTasks) {
+  ThreadPool pool(3);
+  std::vector<std::vector<int>> visits(24, std::vector<int>(50, 0));
+  const auto visit = [&](std::size_t row) {
+    pool.for_ranges(50, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) ++visits[row][k];
+    });
+  };
+  const auto half = [&](std::size_t from) {
+    pool.for_ranges(12, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = from + begin; row < from + end; ++row) pool.both([&] { visit(row); }, [&] { visit(row); });
+    });
+    pool.both([&] { visit(from); }, [&] { visit(from + 1); });
+  };
+  for (int again = 0; again < 200; ++again) pool.both([&] { half(0); }, [&] { half(12); });
+  for (std::size_t row = 0; row < visits.size(); ++row) {
+    const int each = row % 12 < 2 ? 600 : 400;
+    EXPECT_EQ(std::count(visits[row].begin(), visits[row].end(), each), 50) << row;
+  }
 }
 
 // 1 + 1e-16 + 1e-16 + ... depends on the order of its terms; the order is that of the leaves for any number of threads.
