@@ -3,14 +3,10 @@
 namespace abut::contact {
 
 void FacetViews::look(const Side& surface, Index f, FacetView& view) const {
-  const Patch patch = surface.patch(f);
+  static_cast<MeanPlane&>(view) = mean_plane(surface.patch(f));
   view.facet = f;
   view.step = step_;
   view.moves_known = false;
-  view.normal = normalized(cross(patch.x[2] - patch.x[0], patch.x[3] - patch.x[1]));
-  view.center = 0.25 * ((patch.x[0] + patch.x[1]) + (patch.x[2] + patch.x[3]));
-  view.top = -1e300;
-  for (const Vec3& corner : patch.x) view.top = std::max(view.top, dot(view.normal, corner - view.center));
 }
 
 const FacetView& FacetViews::moving(const Side& surface, std::span<const Vec3> before, std::span<const Vec3> v, double dt, Index f) {

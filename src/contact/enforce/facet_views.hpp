@@ -13,21 +13,17 @@
 namespace abut::contact {
 
 /// A facet without its strips.
-struct FacetView {
+struct FacetView : MeanPlane {
   Index facet = no_index;
   bool moves_known = false;
   bool flat = false;  ///< so nearly that the plane's normal is that of every point of it, within `tilt`
   std::uint64_t step = 0;
-  Vec3 normal, center;    ///< of the mean plane
-  double top = 0.0;       ///< of the highest corner over the center
   Vec3 along_s, along_t;  ///< flat: s and t of a point over the facet are about the products of these and its place relative to the center
   double narrow = 0.0;    ///< flat: square of the smaller half side
   Vec3 last, coming;      ///< mean motion of the corners, in the last and in the coming step
   double last_spread = 0.0, coming_spread = 0.0;  ///< no corner's motion differs from the mean by more
   double rises = 0.0;                             ///< largest motion of a corner along the normal in the coming step
 
-  /// As height_over(): x in front of a facet without strips is at least this far from it.
-  [[nodiscard]] double height(const Vec3& x) const { return dot(normal, x - center) - top; }
   /// A node moves by less than `way` relative to every point of the facet, in the last and in the coming step.
   /// @param beyond  1: points of the facet; more: points as far beyond its sides that their weights' magnitudes sum to this
   [[nodiscard]] bool moves_less(const Vec3& its_last, const Vec3& its_coming, double beyond, double way) const {

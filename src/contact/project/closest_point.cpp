@@ -250,11 +250,13 @@ Fall strip(double overshoot, double width, double wider) {
 
 }  // namespace
 
-double height_over(const Patch& patch, const Vec3& x) {
-  const Vec3 n = normalized(cross(patch.x[2] - patch.x[0], patch.x[3] - patch.x[1]));
-  double least = 1e300;
-  for (const Vec3& corner : patch.x) least = std::min(least, dot(n, x - corner));
-  return least;
+MeanPlane mean_plane(const Patch& patch) {
+  MeanPlane plane;
+  plane.normal = normalized(cross(patch.x[2] - patch.x[0], patch.x[3] - patch.x[1]));
+  plane.center = 0.25 * ((patch.x[0] + patch.x[1]) + (patch.x[2] + patch.x[3]));
+  plane.top = -1e300;
+  for (const Vec3& corner : patch.x) plane.top = std::max(plane.top, dot(plane.normal, corner - plane.center));
+  return plane;
 }
 
 ClosestPoint closest_point(const Patch& patch, const Vec3& x) {

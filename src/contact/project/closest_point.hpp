@@ -47,9 +47,14 @@ struct ClosestPoint {
   std::array<double, 4> weight{};  ///< H_i, sum 1
 };
 
-/// Least height of x over the corners, along the normal of their mean plane: a point in front of a facet without strips, which lies within
-/// the hull of its corners, is at least this far from it.
-[[nodiscard]] double height_over(const Patch& patch, const Vec3& x);
+/// The mean plane of a facet without strips, moved up to its highest corner.
+struct MeanPlane {
+  Vec3 normal, center;
+  double top = 0.0;  ///< of the highest corner over the center
+  /// x in front of the facet, which lies within the hull of its corners, is at least this far from it.
+  [[nodiscard]] double height(const Vec3& x) const { return dot(normal, x - center) - top; }
+};
+[[nodiscard]] MeanPlane mean_plane(const Patch& patch);
 
 /// A lower bound of the distance from x to `patch` (with its strips), at a sixth of the cost of the closest point: x and the facet lie on
 /// both sides of a plane that is this far from x. Exact where the closest point of a parallelogram is; 0 for triangles.

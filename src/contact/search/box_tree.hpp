@@ -87,6 +87,8 @@ class BoxTree {
   void set(Index i, const Bounds& box) { boxes_[static_cast<std::size_t>(i)] = CoarseBounds(box); }
   /// Frees the boxes until resize(): query() then visits all of a leaf that meets.
   void forget_boxes() { std::vector<CoarseBounds>().swap(boxes_); }
+  /// @pre not forgotten
+  [[nodiscard]] bool meets(Index i, const CoarseBounds& query) const { return boxes_[static_cast<std::size_t>(i)].meets(query); }
   /// Box i or a little more. @pre not forgotten
   [[nodiscard]] Bounds box(Index i) const { return boxes_[static_cast<std::size_t>(i)].bounds(); }
   /// Makes the tree of the boxes: median splits along the widest side, leaves of at most eight boxes. Where the boxes of the last time have

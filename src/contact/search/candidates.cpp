@@ -89,11 +89,18 @@ void Candidates::make(const Side& held, const Side& surface, const std::function
   others_.assign(nodes, {});
   std::vector<std::vector<Entry>> lists(pieces);
   const auto make_lists = [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t together = 16;  // nodes
+    static_assert(piece % together == 0);
+    std::array<double, together> within;
+    std::vector<Near> near;
     for (std::size_t p = begin; p < end; ++p) {
-      for (std::size_t i = p * piece; i < std::min(nodes, (p + 1) * piece); ++i) {
-        const std::size_t before = lists[p].size();
-        list(held, surface, static_cast<Index>(i), reach(static_cast<Index>(i)), skin, lists[p]);
-        first_[i + 1] = static_cast<Index>(lists[p].size() - before);
+      for (std::size_t first = p * piece; first < std::min(nodes, (p + 1) * piece); first += together) {
+        const std::size_t count = std::min(together, nodes - first);
+        for (std::size_t k = 0; k < count; ++k) {
+          const double far = reach(static_cast<Index>(first + k));
+          within[k] = far >= 0.0 ? far + skin : -1.0;
+        }
+        list(held, surface, static_cast<Index>(first), std::span(within).first(count), near, lists[p]);
       }
     }
   };
@@ -110,28 +117,57 @@ void Candidates::make(const Side& held, const Side& surface, const std::function
   for (std::size_t i = 0; i < nodes; ++i) first_[i + 1] += first_[i];
 }
 
-void Candidates::list(const Side& held, const Side& surface, Index node, double reach, double skin, std::vector<Entry>& entries) {
-  if (!(reach >= 0.0)) return;
-  const auto begin = static_cast<std::ptrdiff_t>(entries.size());
-  const Vec3 x = held.x()[at(node)];
-  const double limit = reach + skin;
-  Bounds box{x, x};
-  box.inflate(limit);
-  tree_.query(box, [&](Index f) {
-    if (!surface.active(f)) return;
-    for (const std::array<Index, 4> corners = surface.surface().facet(f).node; const Index n : corners) {
-      if (n == held.nodes()[at(node)]) return;  // nobody touches a facet of its own
-    }
-    // Lower bounds: who needs the distance measures it.
-    const bool border = surface.borders(f) != 0;
-    const double over = height_over(surface.patch(f), x);
-    double away = std::sqrt(squared_distance(tree_.box(f), x));
-    if (!border) away = std::max(away, over);
-    if (away > limit) return;
-    entries.emplace_back(f, true, border, away);  // the clock shows 0
-    nearest_[at(node)] = std::min(nearest_due(node), border ? std::min(away, over) : away);
+void Candidates::list(const Side& held, const Side& surface, Index first, std::span<const double> within, std::vector<Near>& near,
+                      std::vector<Entry>& entries) {
+  const auto box_of = [&](std::size_t k) {
+    const Vec3& x = held.x()[at(first) + k];
+    Bounds box{x, x};
+    box.inflate(within[k]);
+    return box;
+  };
+  Bounds all;
+  double furthest = -1.0;
+  for (std::size_t k = 0; k < within.size(); ++k) {
+    if (within[k] < 0.0) continue;
+    all.include(box_of(k));
+    furthest = std::max(furthest, within[k]);
+  }
+  if (furthest < 0.0) return;
+  // Nodes that do not lie together share few facets: in halves.
+  constexpr double apart = 12.0;
+  const Vec3 side = all.high - all.low;
+  if (within.size() > 1 && std::max({side.x, side.y, side.z}) > apart * furthest) {
+    const std::size_t half = within.size() / 2;
+    list(held, surface, first, within.first(half), near, entries);
+    list(held, surface, first + static_cast<Index>(half), within.subspan(half), near, entries);
+    return;
+  }
+  near.clear();
+  tree_.query(all, [&](Index f) {
+    if (surface.active(f)) near.push_back({f, surface.borders(f) != 0, surface.surface().facet(f).node, mean_plane(surface.patch(f))});
   });
-  std::sort(entries.begin() + begin, entries.end(), [](const Entry& a, const Entry& b) { return a.facet < b.facet; });
+  std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.facet < b.facet; });
+  for (std::size_t k = 0; k < within.size(); ++k) {
+    if (within[k] < 0.0) continue;
+    const std::size_t node = at(first) + k, before = entries.size();
+    const Vec3& x = held.x()[node];
+    const Index host = held.nodes()[node];
+    const CoarseBounds box(box_of(k));
+    double nearest = 1e300;
+    for (const Near& f : near) {
+      if (!tree_.meets(f.facet, box)) continue;
+      if (std::find(f.node.begin(), f.node.end(), host) != f.node.end()) continue;  // nobody touches a facet of its own
+      // Lower bounds: who needs the distance measures it.
+      const double over = f.plane.height(x);
+      double away = std::sqrt(squared_distance(tree_.box(f.facet), x));
+      if (!f.border) away = std::max(away, over);
+      if (away > within[k]) continue;
+      entries.emplace_back(f.facet, true, f.border, away);  // the clock shows 0
+      nearest = std::min(nearest, f.border ? std::min(away, over) : away);
+    }
+    nearest_[node] = nearest;
+    first_[node + 1] = static_cast<Index>(entries.size() - before);
+  }
 }
 
 }  // namespace abut::contact

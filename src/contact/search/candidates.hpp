@@ -127,7 +127,18 @@ class Candidates {
   double clock_ = 0.0;
 
   void make(const Side& held, const Side& surface, const std::function<double(Index)>& reach, double skin, const Executor& executor);
-  void list(const Side& held, const Side& surface, Index node, double reach, double skin, std::vector<Entry>& entries);
+  /// A facet near some nodes.
+  struct Near {
+    Index facet = no_index;
+    bool border = false;
+    std::array<Index, 4> node{};  ///< of the host
+    MeanPlane plane;
+  };
+  /// Appends the lists of neighbouring nodes [first, first + within.size()).
+  /// @param within  distance to which each list reaches; < 0: it needs none
+  /// @param near    work space
+  void list(const Side& held, const Side& surface, Index first, std::span<const double> within, std::vector<Near>& near,
+            std::vector<Entry>& entries);
 };
 
 /// Box of a facet with its strips.
