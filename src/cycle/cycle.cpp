@@ -122,7 +122,7 @@ void Cycle::forces(StepLimits& limits) {
 
 void Cycle::internal_forces(StepLimits& limits) {
   const Timer timer(*this, p_elements);
-  const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus};
+  const elements::StepInput in{state_.x.data(), state_.v.data(), state_.w.data(), state_.times.t, state_.times.h_minus, history_due_};
   const elements::StepOutput out{sums_.data(), slots_.empty() ? nullptr : slots_.data()};
   for (PartResult& p : parts_) p = {0.0, 0.0, {}, p.eroded};
   removed_energy_ = 0.0;
@@ -141,7 +141,7 @@ void Cycle::internal_forces(StepLimits& limits) {
     removed_energy_ += r.removed_energy;
     if (r.removed > 0) eroded_ = true;
     check_minimum_step(*g, r);
-    if (history_due_) { part.sums += g->part_sums(state_.v, state_.w, &pool_); }
+    part.sums += r.part_sums;
     if (r.step < limits.element) {
       using Kind = StepController::Kind;
       static constexpr Kind kinds[] = {Kind::none, Kind::shell, Kind::sh3n, Kind::brick, Kind::tetra};

@@ -1,26 +1,40 @@
 #include "elements/group.hpp"
 
-#include "parallel/ordered_sum.hpp"
-
 namespace abut::elements {
 
-PartSums Group::NodalShares::sums(const ChunkTable& chunks, std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) {
-  const std::span<const Index> nodes = chunks.nodes();
-  const bool rotations = !inertia.empty() && !w.empty();
+void Group::NodalShares::sum(const ChunkTable& chunks, std::size_t chunk, const Vec3* v, const Vec3* w) {
+  const std::span<const Index> nodes = chunks.nodes(chunk);
+  const auto first = static_cast<std::size_t>(nodes.data() - chunks.nodes().data());
+  const bool rotations = !inertia.empty() && w != nullptr;
+  PartSums sums;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const auto i = static_cast<std::size_t>(nodes[k]);
+    const double m = mass[first + k];
+    sums.mass += m;
+    sums.kinetic_energy += 0.5 * m * squared_norm(v[i]);
+    sums.momentum += m * v[i];
+    if (rotations) sums.rotational_energy += 0.5 * inertia[first + k] * squared_norm(w[i]);
+  }
+  leaves[chunk] = sums;
+}
+
+PartSums Group::NodalShares::total() const {
+  PartSums total;
+  for (const PartSums& leaf : leaves) total += leaf;
+  return total;
+}
+
+PartSums Group::NodalShares::sums(const ChunkTable& chunks, const Vec3* v, const Vec3* w, parallel::ThreadPool* pool) {
+  const auto count = static_cast<std::size_t>(chunks.size());
   const auto leaf = [&](std::size_t begin, std::size_t end) {
-    PartSums sums;
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(nodes[k]);
-      sums.mass += mass[k];
-      sums.kinetic_energy += 0.5 * mass[k] * squared_norm(v[i]);
-      sums.momentum += mass[k] * v[i];
-      if (rotations) sums.rotational_energy += 0.5 * inertia[k] * squared_norm(w[i]);
-    }
-    return sums;
+    for (std::size_t c = begin; c < end; ++c) sum(chunks, c, v, w);
   };
-  if (pool != nullptr) return parallel::ordered_sum(nodes.size(), leaves, *pool, leaf);
-  parallel::ThreadPool alone(1);
-  return parallel::ordered_sum(nodes.size(), leaves, alone, leaf);
+  if (pool != nullptr) {
+    pool->for_ranges(count, 1, leaf);
+  } else {
+    leaf(0, count);
+  }
+  return total();
 }
 
 }  // namespace abut::elements

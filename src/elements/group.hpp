@@ -32,12 +32,26 @@ struct StepInput {
   const Vec3* w = nullptr;  ///< angular velocities at n - 1/2 (shells)
   double time = 0.0;        ///< t^n
   double dt = 0.0;          ///< h_-, 0 in the first cycle
+  bool part_sums = false;   ///< they are wanted
 };
 
 /// Where a step leaves its forces; either may be null.
 struct StepOutput {
   double* sums = nullptr;   ///< of all groups, per chunk and node (ChunkTable)
   double* slots = nullptr;  ///< of all groups, per element (SlotLayout)
+};
+
+/// Sums over a part for the time history (numerics.md 8.3); `v` at the entry of the cycle.
+struct PartSums {
+  double kinetic_energy = 0.0, rotational_energy = 0.0, mass = 0.0;
+  Vec3 momentum;
+  PartSums& operator+=(const PartSums& b) {
+    kinetic_energy += b.kinetic_energy;
+    rotational_energy += b.rotational_energy;
+    mass += b.mass;
+    momentum += b.momentum;
+    return *this;
+  }
 };
 
 /// What a group says after a step.
@@ -49,6 +63,7 @@ struct GroupResult {
   double removed_energy = 0.0;   ///< internal + hourglass energy that all elements deleted so far held; not in the two above
   Index removed = 0;             ///< elements deleted in this cycle
   Index bad_element = no_index;  ///< first element with a non-finite result or a negative volume, group-local
+  PartSums part_sums;            ///< as part_sums() after the step; where they are wanted
 };
 
 /// Values of one element for output (numerics.md 8.5, 8.6). Unused members stay 0.
@@ -65,19 +80,6 @@ struct ElementOutput {
 struct ShellLayer {
   enum class Kind { bending, upper, lower, point } kind = Kind::upper;
   int point = 0;  ///< integration point from 1 (bottom), for Kind::point
-};
-
-/// Sums over a part for the time history (numerics.md 8.3); `v` at the entry of the cycle.
-struct PartSums {
-  double kinetic_energy = 0.0, rotational_energy = 0.0, mass = 0.0;
-  Vec3 momentum;
-  PartSums& operator+=(const PartSums& b) {
-    kinetic_energy += b.kinetic_energy;
-    rotational_energy += b.rotational_energy;
-    mass += b.mass;
-    momentum += b.momentum;
-    return *this;
-  }
 };
 
 /// Layout of a group's slots: entry of node k (of nodes_per_element), component c (of components), element e = 8 b + l:
@@ -162,9 +164,9 @@ class Group {
   [[nodiscard]] virtual bool active(Index element) const = 0;
   /// Current thickness of a shell (contact updates use it); 0 for solids.
   [[nodiscard]] virtual double thickness(Index element) const = 0;
+  /// @param v, w  #N; w null: nothing turns
   /// @param pool  null: by the calling thread; the same bits either way
-  [[nodiscard]] virtual PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w,
-                                           parallel::ThreadPool* pool = nullptr) const = 0;
+  [[nodiscard]] virtual PartSums part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* pool = nullptr) const = 0;
   [[nodiscard]] virtual double element_mass(Index element) const = 0;
   [[nodiscard]] virtual double element_energy(Index element) const = 0;  ///< internal + hourglass
 
@@ -177,8 +179,12 @@ class Group {
   struct NodalShares {
     bool valid = false;
     FewValues mass, inertia;
-    std::vector<PartSums> leaves;
-    [[nodiscard]] PartSums sums(const ChunkTable& chunks, std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool);
+    std::vector<PartSums> leaves;  ///< per chunk
+    /// Those of a chunk. @param w  null: nothing turns
+    void sum(const ChunkTable& chunks, std::size_t chunk, const Vec3* v, const Vec3* w);
+    /// Those of all chunks, in order.
+    [[nodiscard]] PartSums total() const;
+    [[nodiscard]] PartSums sums(const ChunkTable& chunks, const Vec3* v, const Vec3* w, parallel::ThreadPool* pool);
   };
 
   Index part_ = no_index;

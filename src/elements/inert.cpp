@@ -31,9 +31,11 @@ class InertGroup final : public Group {
       if (!data_.inertia.empty()) inertia[node] += data_.inertia[i];
     }
   }
-  GroupResult step(const StepInput& /*in*/, const StepOutput& out, parallel::ThreadPool& /*pool*/) override {
+  GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) override {
     if (out.slots != nullptr) std::fill_n(out.slots + layout_.offset, layout_.size(), 0.0);
-    return {};
+    GroupResult result;
+    if (in.part_sums) result.part_sums = part_sums(in.v, in.w, &pool);
+    return result;
   }
   void set_rigid(std::span<const std::uint8_t> rigid) override {
     for (std::size_t e = 0; e < live_.size(); ++e) live_[e] = rigid[e] == 0 ? 1 : 0;
@@ -47,7 +49,7 @@ class InertGroup final : public Group {
   [[nodiscard]] double thickness(Index element) const override {
     return data_.thickness.empty() ? 0.0 : data_.thickness[static_cast<std::size_t>(element)];
   }
-  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* /*pool*/) const override {
+  [[nodiscard]] PartSums part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* /*pool*/) const override {
     PartSums sums;
     for (Index e = 0; e < size(); ++e) {
       if (live_[static_cast<std::size_t>(e)] == 0) continue;

@@ -240,6 +240,7 @@ GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, paralle
   last_x_ = in.x;
   if (!section_) {
     if (out.slots != nullptr) std::fill_n(out.slots + layout_.offset, layout_.size(), 0.0);
+    if (in.part_sums) total.part_sums = part_sums(in.v, in.w, &pool);
     return total;
   }
   ShellKernelArgs args;
@@ -251,9 +252,14 @@ GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, paralle
   args.state = state_.data();
   args.nodes = nodes_.data();
   args.constants = constants_.data();
+  if (in.part_sums) share_masses();
   pool.for_ranges(results_.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) run_chunk(args, out, c);
+    for (std::size_t c = begin; c < end; ++c) {
+      run_chunk(args, out, c);
+      if (in.part_sums) shares_.sum(chunks_, c, in.v, in.w);  // while its nodes are in the caches
+    }
   });
+  if (in.part_sums) total.part_sums = shares_.total();
   for (std::size_t c = 0; c < results_.size(); ++c) {
     const ChunkResult& r = results_[c];
     if (r.step * in_.step_scale < total.step) {
@@ -364,24 +370,28 @@ ElementOutput ShellGroup::output(Index element) const {
   return o;
 }
 
-PartSums ShellGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const {
-  if (!shares_.valid) {
-    std::vector<double> masses(chunks_.nodes().size(), 0.0), inertias(chunks_.nodes().size(), 0.0);
-    for (Index e = 0; e < size(); ++e) {
-      if (constant(e, shell_constant::active) == 0.0) continue;
-      const double share = element_mass(e) / static_cast<double>(per_element_);
-      const std::array<Vec3, 4> x = corners(e, in_.model->node_x.data());
-      const double t = initial_thickness(e), area = frame(std::span<const Vec3>(x.data(), per_element_)).area;
-      for (int k = 0; k < layout_.nodes_per_element; ++k) {
-        const std::size_t place = chunks_.place(e, k);
-        masses[place] += share;
-        inertias[place] += share * (t * t + area) / 12.0;
-      }
+void ShellGroup::share_masses() const {
+  if (shares_.valid) return;
+  std::vector<double> masses(chunks_.nodes().size(), 0.0), inertias(chunks_.nodes().size(), 0.0);
+  for (Index e = 0; e < size(); ++e) {
+    if (constant(e, shell_constant::active) == 0.0) continue;
+    const double share = element_mass(e) / static_cast<double>(per_element_);
+    const std::array<Vec3, 4> x = corners(e, in_.model->node_x.data());
+    const double t = initial_thickness(e), area = frame(std::span<const Vec3>(x.data(), per_element_)).area;
+    for (int k = 0; k < layout_.nodes_per_element; ++k) {
+      const std::size_t place = chunks_.place(e, k);
+      masses[place] += share;
+      inertias[place] += share * (t * t + area) / 12.0;
     }
-    shares_.mass = FewValues(std::move(masses));
-    shares_.inertia = FewValues(std::move(inertias));
-    shares_.valid = true;
   }
+  shares_.mass = FewValues(std::move(masses));
+  shares_.inertia = FewValues(std::move(inertias));
+  shares_.leaves.resize(static_cast<std::size_t>(chunks_.size()));
+  shares_.valid = true;
+}
+
+PartSums ShellGroup::part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* pool) const {
+  share_masses();
   return shares_.sums(chunks_, v, w, pool);
 }
 

@@ -42,7 +42,7 @@ class ShellGroup : public Group {
   [[nodiscard]] std::array<double, 6> layer_stress(Index element, ShellLayer layer) const final;
   [[nodiscard]] bool active(Index element) const final;
   [[nodiscard]] double thickness(Index element) const final;
-  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const final;
+  [[nodiscard]] PartSums part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* pool) const final;
   [[nodiscard]] double element_mass(Index element) const final;
   [[nodiscard]] double element_energy(Index element) const final;
   [[nodiscard]] std::vector<std::span<double>> history() final;
@@ -96,6 +96,8 @@ class ShellGroup : public Group {
   std::vector<ChunkResult> results_;
   FinishBlock finish_block_ = nullptr;
   mutable NodalShares shares_;
+
+  void share_masses() const;
   const Vec3* last_x_ = nullptr;
 };
 

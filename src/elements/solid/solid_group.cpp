@@ -210,6 +210,8 @@ GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, paralle
   base.state = state_.data();
   base.dt = in.dt;
   base.positions = chunks_.positions();
+  const bool sums_now = in.part_sums && !reference_part_mass_;  // else with the densities that the step leaves
+  if (sums_now) share_masses();
   pool.for_ranges(results_.size(), 1, [&](std::size_t begin, std::size_t end) {
     alignas(64) double scratch[8 * 4 * lanes];  // slots of one block, when nobody asks for them all
     SolidTask task = base;
@@ -225,6 +227,7 @@ GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, paralle
         std::fill_n(task.sums, chunks_.nodes(i).size() * 4, 0.0);
       }
       kernel_(task);
+      if (sums_now) shares_.sum(chunks_, i, in.v, nullptr);  // while its nodes are in the caches
     }
   });
 
@@ -243,6 +246,7 @@ GroupResult SolidGroup::step(const StepInput& in, const StepOutput& out, paralle
     if (result.bad_element == no_index) result.bad_element = chunk.bad_element;
   }
   if (inverse_step > 0.0) result.step = config_.step_scale / inverse_step;
+  if (in.part_sums) result.part_sums = sums_now && shares_.valid ? shares_.total() : part_sums(in.v, nullptr, &pool);
   return result;
 }
 
@@ -287,19 +291,23 @@ ElementOutput SolidGroup::output(Index element) const {
 
 bool SolidGroup::active(Index element) const { return at(element, f_off) > 0.0; }
 
-PartSums SolidGroup::part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const {
+void SolidGroup::share_masses() const {
   // rho^n V_0 of the reference's small strain changes from cycle to cycle.
-  if (!shares_.valid || reference_part_mass_) {
-    std::vector<double> masses(chunks_.nodes().size(), 0.0);
-    const double share = 1.0 / nodes_per_element_;
-    for (Index e = 0; e < size(); ++e) {
-      if (!(at(e, f_live) > 0.0)) continue;
-      const double mass = reference_part_mass_ ? at(e, f_density) * at(e, f_volume) : at(e, f_mass);
-      for (int k = 0; k < nodes_per_element_; ++k) masses[chunks_.place(e, k)] += share * mass;
-    }
-    shares_.mass = FewValues(std::move(masses));
-    shares_.valid = true;
+  if (shares_.valid && !reference_part_mass_) return;
+  std::vector<double> masses(chunks_.nodes().size(), 0.0);
+  const double share = 1.0 / nodes_per_element_;
+  for (Index e = 0; e < size(); ++e) {
+    if (!(at(e, f_live) > 0.0)) continue;
+    const double mass = reference_part_mass_ ? at(e, f_density) * at(e, f_volume) : at(e, f_mass);
+    for (int k = 0; k < nodes_per_element_; ++k) masses[chunks_.place(e, k)] += share * mass;
   }
+  shares_.mass = FewValues(std::move(masses));
+  shares_.leaves.resize(static_cast<std::size_t>(chunks_.size()));
+  shares_.valid = true;
+}
+
+PartSums SolidGroup::part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* pool) const {
+  share_masses();
   return shares_.sums(chunks_, v, w, pool);
 }
 

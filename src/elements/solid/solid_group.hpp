@@ -30,7 +30,7 @@ class SolidGroup : public Group {
   [[nodiscard]] ElementOutput output(Index element) const override;
   [[nodiscard]] bool active(Index element) const override;
   [[nodiscard]] double thickness(Index /*element*/) const override { return 0.0; }
-  [[nodiscard]] PartSums part_sums(std::span<const Vec3> v, std::span<const Vec3> w, parallel::ThreadPool* pool) const override;
+  [[nodiscard]] PartSums part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* pool) const override;
   [[nodiscard]] double element_mass(Index element) const override;
   [[nodiscard]] double element_energy(Index element) const override;
   [[nodiscard]] std::vector<std::span<double>> history() override;
@@ -62,6 +62,8 @@ class SolidGroup : public Group {
   simd::AlignedVector<double> state_;
   std::vector<SolidChunk> results_;
   mutable NodalShares shares_;
+
+  void share_masses() const;
 };
 
 /// V^(-1/3) for V > 0, without libm.

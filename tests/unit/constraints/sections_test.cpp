@@ -29,9 +29,7 @@ class FilledGroup : public elements::Group {
   [[nodiscard]] elements::ElementOutput output(Index) const override { return {}; }
   [[nodiscard]] bool active(Index) const override { return true; }
   [[nodiscard]] double thickness(Index) const override { return 0.0; }
-  [[nodiscard]] elements::PartSums part_sums(std::span<const Vec3>, std::span<const Vec3>, parallel::ThreadPool*) const override {
-    return {};
-  }
+  [[nodiscard]] elements::PartSums part_sums(const Vec3*, const Vec3*, parallel::ThreadPool*) const override { return {}; }
   [[nodiscard]] double element_mass(Index) const override { return 0.0; }
   [[nodiscard]] double element_energy(Index) const override { return 0.0; }
   [[nodiscard]] std::vector<std::span<double>> history() override { return {}; }

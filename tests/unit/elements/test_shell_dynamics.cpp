@@ -258,7 +258,7 @@ TEST(ShellGroups, RigidElementsPartSumsAndBadElements) {
   rigid[3] = 1;
   r.group->set_rigid(rigid);
   for (std::size_t k = 0; k < r.v.size(); ++k) r.v[k] = {0.1 * r.x[k].x, 0.0, 0.0};
-  const PartSums sums = r.group->part_sums(r.v, r.w);
+  const PartSums sums = r.group->part_sums(r.v.data(), r.w.data());
   EXPECT_NEAR(sums.mass, 9.0, 1e-12);
   EXPECT_NEAR(sums.momentum.x, 0.1 * (50.0 - 3.5), 1e-12);
   double kinetic = 0.0;

@@ -90,7 +90,7 @@ class FakeGroup final : public elements::Group {
   }
   bool active(Index element) const override { return !deleted_[static_cast<std::size_t>(element)]; }
   double thickness(Index) const override { return 0.0; }
-  elements::PartSums part_sums(std::span<const Vec3>, std::span<const Vec3>, parallel::ThreadPool*) const override { return {}; }
+  elements::PartSums part_sums(const Vec3*, const Vec3*, parallel::ThreadPool*) const override { return {}; }
   double element_mass(Index element) const override { return 4.0 + elements_[static_cast<std::size_t>(element)]; }
   double element_energy(Index) const override { return 0.0; }
   std::vector<std::span<double>> history() override { return {}; }
