@@ -151,7 +151,7 @@ struct Runner {
   }
 
   GroupResult step(double dt) {
-    const GroupResult r = group->step({x.data(), v.data(), w.data(), 0.0, dt}, {nullptr, slots.data()}, pool);
+    const GroupResult r = group->step({x.data(), v.data(), w.data(), 0.0, dt, true}, {nullptr, slots.data()}, pool);
     f = sum3(0);
     stiffness = sum(3);
     m = sum3(4);

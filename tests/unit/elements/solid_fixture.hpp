@@ -107,6 +107,7 @@ class SolidBody {
     in.v = v.data();
     in.dt = dt;
     in.time = time;
+    in.part_sums = true;
     result = group->step(in, {nullptr, slots.data()}, pool);
     std::fill(f.begin(), f.end(), Vec3{});
     std::fill(k.begin(), k.end(), 0.0);
