@@ -50,7 +50,7 @@ void print_timings(const Run& run, std::int64_t cycles) {
 bool carry_out(Run& run, const Manner& manner) {
   const Model& model = run.model();
   if (!manner.quiet) {
-    fmt::print("{}: {} nodes, {} elements, {} interfaces, ", model.name(), model.node_ids().size(), model.element_count(),
+    fmt::print("{}: {} nodes, {} elements, {} interfaces, ", model.name(), model.coordinates().size(), model.element_count(),
                model.interfaces().size());
     if (run.cycle() > 0) fmt::print("from cycle {}, time {:.6g} ", run.cycle(), run.time());
     fmt::print("until {:.6g} {}; results in {}\n", model.end_time(), model.units().time_name, run.output().string());

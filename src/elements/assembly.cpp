@@ -31,7 +31,7 @@ Assembly::Assembly(Index node_count, std::span<const std::unique_ptr<Group>> gro
     };
     for_entries([&](std::size_t node, std::size_t) { ++entries.first[node + 1]; });
     for (std::size_t i = 1; i < entries.first.size(); ++i) entries.first[i] += entries.first[i - 1];
-    if (entries.first.back() == 0) return entries;
+    if (entries.first.back() == 0) return Entries();
     entries.at.resize(entries.first.back() + Entries::padding);
     std::vector<std::uint32_t> next(entries.first.begin(), entries.first.end() - 1);
     for_entries([&](std::size_t node, std::size_t at) { entries.at[next[node]++] = static_cast<std::uint32_t>(at); });

@@ -32,8 +32,9 @@ class Assembly {
   /// For every node where its sums begin: those of shells (8 components) or of solids (4).
   struct Entries {
     static constexpr std::uint32_t padding = 24;
-    std::vector<std::uint32_t> first;  ///< #N + 1
+    std::vector<std::uint32_t> first;  ///< #N + 1; empty: there are none
     std::vector<std::uint32_t> at;     ///< component 0 of the entry; `padding` more at the end
+    [[nodiscard]] std::uint32_t begin(std::size_t i) const { return first.empty() ? 0 : first[i]; }
   };
   [[nodiscard]] const Entries& shells() const { return shells_; }
   [[nodiscard]] const Entries& solids() const { return solids_; }
@@ -41,14 +42,14 @@ class Assembly {
   /// Totals at node i. @param sums as long as sum_count()
   [[nodiscard]] NodalSum total(const double* sums, std::size_t i) const {
     NodalSum n;
-    for (std::uint32_t j = shells_.first[i]; j < shells_.first[i + 1]; ++j) {
+    for (std::uint32_t j = shells_.begin(i); j < shells_.begin(i + 1); ++j) {
       const double* p = sums + shells_.at[j];
       n.force += Vec3{p[0], p[1], p[2]};
       n.stiffness += p[3];
       n.moment += Vec3{p[4], p[5], p[6]};
       n.rotational_stiffness += p[7];
     }
-    for (std::uint32_t j = solids_.first[i]; j < solids_.first[i + 1]; ++j) {
+    for (std::uint32_t j = solids_.begin(i); j < solids_.begin(i + 1); ++j) {
       const double* p = sums + solids_.at[j];
       n.force += Vec3{p[0], p[1], p[2]};
       n.stiffness += p[3];

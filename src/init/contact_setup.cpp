@@ -18,11 +18,11 @@ namespace {
 using model::ElementKind;
 using model::ElementRef;
 
-contact::Surface make_surface(const model::Model& model, const model::Surface& surface) {
+contact::Surface make_surface(const model::Surface& surface) {
   std::vector<contact::Facet> facets;
   facets.reserve(surface.segments.size());
   for (const model::Segment& s : surface.segments) facets.push_back({s.nodes});
-  return contact::Surface(std::move(facets), model.node_id);
+  return contact::Surface(std::move(facets));  // nodes are sorted by id
 }
 
 RunInterface::Side make_side(const model::Model& model, const model::Surface& surface, const FaceOwners* owners, std::span<const Vec3> x,
@@ -38,7 +38,7 @@ RunInterface::Side make_side(const model::Model& model, const model::Surface& su
     side.corners.push_back(s.nodes);
   }
   side.active.assign(surface.segments.size(), 1);
-  const contact::Surface topology = make_surface(model, surface);
+  const contact::Surface topology = make_surface(surface);
   side.nodes.assign(topology.nodes().begin(), topology.nodes().end());
   return side;
 }
@@ -67,7 +67,7 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
     const model::Surface& second = surface_of(t3->surface_2);
     const contact::Options options = one_sided_options(model, card, profile, choices);
     RunInterface r{index,
-                   contact::Interface::two_surfaces(make_surface(model, first), make_surface(model, second), options),
+                   contact::Interface::two_surfaces(make_surface(first), make_surface(second), options),
                    {make_side(model, first, own, x, options.automatic_gap), make_side(model, second, own, x, options.automatic_gap)}};
     for (std::size_t side = 0; side < 2; ++side) set_surface(r, side);
     return r;
@@ -77,7 +77,7 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
     const contact::Options options = one_sided_options(model, card, profile, choices);
     RunInterface r{
         index,
-        contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(model, main), options),
+        contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(main), options),
         {held_side(t5->nodes), make_side(model, main, own, x, options.automatic_gap)}};
     r.sides[0].shares = node_shares(model, *owners, t5->nodes, x);
     if (options.automatic_gap) {
@@ -90,7 +90,7 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
   const auto& t7 = std::get<model::InterfaceType7>(card.type);
   const model::Surface& main = surface_of(t7.surface);
   RunInterface r{index,
-                 contact::Interface::both_sides(t7.nodes, make_surface(model, main), both_sides_options(model, card, profile, x)),
+                 contact::Interface::both_sides(t7.nodes, make_surface(main), both_sides_options(model, card, profile, x)),
                  {held_side(t7.nodes), make_side(model, main, own, x)}};
   // Istf 1: the card's value is K0 itself, which the law takes as half of K.
   for (double& k : r.sides[1].stiffness) k = t7.istf == 1 ? 2.0 * card.stfac : card.stfac * k;

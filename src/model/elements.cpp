@@ -18,7 +18,7 @@ constexpr double flat = 1e-12;  ///< an area below flat * (longest diagonal)^2, 
 class NodeLookup {
  public:
   explicit NodeLookup(const Context& c) : table_(c.tables.nodes) {
-    const std::vector<Id>& ids = c.model->node_id;
+    const Ids& ids = c.model->node_id;
     if (ids.empty() || ids.back() - ids.front() > 4 * static_cast<Id>(ids.size()) + 1024) return;
     first_ = ids.front();
     dense_.assign(static_cast<std::size_t>(ids.back() - ids.front()) + 1, no_index);
@@ -44,7 +44,8 @@ constexpr std::array<std::string_view, 8> node_fields{"n1", "n2", "n3", "n4", "n
 /// Elements of one table while they are read; where each was defined, for messages about duplicates.
 template <std::size_t N>
 struct Reading {
-  Elements<N> elements;
+  Elements<N> elements;  ///< but for ids
+  std::vector<Id> ids;
   struct Origin {
     const deck::Block* block;
     std::int32_t file, line;
@@ -52,7 +53,7 @@ struct Reading {
   std::vector<Origin> origins;
 
   void add(Id id, Index part, const std::array<Index, N>& nodes, double thickness, const deck::Block& b, const deck::Card& card) {
-    elements.id.push_back(id);
+    ids.push_back(id);
     elements.part.push_back(part);
     elements.nodes.push_back(nodes);
     elements.thickness.push_back(thickness);
@@ -61,22 +62,21 @@ struct Reading {
 
   void finish(Context& c, std::string_view keyword, Elements<N>& out, Tables::Map& table) {
     const auto place_of = [&](std::size_t k) { return c.deck->place(*origins[k].block, {{}, origins[k].file, origins[k].line}); };
-    const std::size_t n = elements.id.size();
-    out.id.reserve(n);
+    const std::size_t n = ids.size();
     out.part.reserve(n);
     out.nodes.reserve(n);
     const bool own = std::any_of(elements.thickness.begin(), elements.thickness.end(), [](double t) { return t != 0.0; });
     if (own) out.thickness.reserve(n);
     table.reserve(n);
     std::size_t first = 0;
-    for (const std::size_t k : ascending_order(elements.id)) {
-      if (!out.id.empty() && out.id.back() == elements.id[k]) {
-        report_duplicate(c, keyword, elements.id[k], place_of(k), place_of(first));
+    for (const std::size_t k : ascending_order(ids)) {
+      if (!out.id.empty() && out.id.back() == ids[k]) {
+        report_duplicate(c, keyword, ids[k], place_of(k), place_of(first));
         continue;
       }
       first = k;
-      table.emplace(elements.id[k], out.size());
-      out.id.push_back(elements.id[k]);
+      table.emplace(ids[k], out.size());
+      out.id.push_back(ids[k]);
       out.part.push_back(elements.part[k]);
       out.nodes.push_back(elements.nodes[k]);
       if (own) out.thickness.push_back(elements.thickness[k]);

@@ -49,7 +49,6 @@ void read_nodes(Context& c) {
     return c.deck->place(block, {{}, files[k], origin[k].second});
   };
   Model& m = *c.model;
-  m.node_id.reserve(ids.size());
   m.node_x.reserve(ids.size());
   c.tables.nodes.reserve(ids.size());
   std::size_t first = 0;

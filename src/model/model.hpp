@@ -14,6 +14,7 @@
 #include "abut/types.hpp"
 #include "abut/vec3.hpp"
 #include "core/diagnostic.hpp"
+#include "model/ids.hpp"
 
 namespace abut::model {
 
@@ -91,7 +92,7 @@ struct Part {
 /// #E elements of N nodes. `thickness` (shells only): 0 = use the property's; empty: of all.
 template <std::size_t N>
 struct Elements {
-  std::vector<Id> id;
+  Ids id;
   std::vector<Index> part;
   std::vector<std::array<Index, N>> nodes;
   std::vector<double> thickness;
@@ -345,7 +346,7 @@ struct Model {
   Units units;
   bool shell_frame_v4 = false;  ///< /SHFRA/V4
 
-  std::vector<Id> node_id;
+  Ids node_id;
   std::vector<Vec3> node_x;
 
   std::vector<Material> materials;

@@ -33,8 +33,8 @@ class Fingerprint {
 };
 
 template <std::size_t N>
-ElementTable table_of(ElementKind kind, const model::Elements<N>& e) {
-  return {kind, static_cast<int>(N), e.id, e.part, {e.nodes.empty() ? nullptr : e.nodes.front().data(), e.nodes.size() * N}};
+ElementTable table_of(ElementKind kind, std::span<const Id> ids, const model::Elements<N>& e) {
+  return {kind, static_cast<int>(N), ids, e.part, {e.nodes.empty() ? nullptr : e.nodes.front().data(), e.nodes.size() * N}};
 }
 
 void describe_parts(Model::Impl& m) {
@@ -146,13 +146,28 @@ const std::filesystem::path& Model::path() const { return impl_->path; }
 std::span<const std::string> Model::files() const { return impl_->files; }
 std::span<const Diagnostic> Model::findings() const { return impl_->findings; }
 std::uint64_t Model::fingerprint() const { return impl_->fingerprint; }
-std::span<const Id> Model::node_ids() const { return impl_->model.node_id; }
+std::span<const Id> Model::node_ids() const { return impl_->ids(ElementKind::none); }
 std::span<const Vec3> Model::coordinates() const { return impl_->model.node_x; }
 std::span<const PartInfo> Model::parts() const { return impl_->parts; }
 std::span<const SurfaceInfo> Model::surfaces() const { return impl_->surfaces(); }
 
+namespace {
+
+std::mutex making;  // what a model shows only when it is asked for
+
+}  // namespace
+
+const std::vector<Id>& Model::Impl::ids(ElementKind kind) const {
+  const std::lock_guard lock(making);
+  std::shared_ptr<const std::vector<Id>>& made = ids_[static_cast<std::size_t>(kind)];
+  if (made == nullptr) {
+    const std::array<const model::Ids*, 5> all{&model.node_id, &model.shells.id, &model.sh3ns.id, &model.bricks.id, &model.tetras.id};
+    made = std::make_shared<const std::vector<Id>>(all[static_cast<std::size_t>(kind)]->all());
+  }
+  return *made;
+}
+
 const std::vector<SurfaceInfo>& Model::Impl::surfaces() const {
-  static std::mutex making;
   const std::lock_guard lock(making);
   if (surfaces_ == nullptr) {
     std::vector<SurfaceInfo> all;
@@ -173,13 +188,13 @@ std::size_t Model::element_count() const { return static_cast<std::size_t>(outpu
 ElementTable Model::elements(ElementKind kind) const {
   switch (kind) {
     case ElementKind::shell4:
-      return table_of(kind, impl_->model.shells);
+      return table_of(kind, impl_->ids(kind), impl_->model.shells);
     case ElementKind::shell3:
-      return table_of(kind, impl_->model.sh3ns);
+      return table_of(kind, impl_->ids(kind), impl_->model.sh3ns);
     case ElementKind::brick:
-      return table_of(kind, impl_->model.bricks);
+      return table_of(kind, impl_->ids(kind), impl_->model.bricks);
     case ElementKind::tetra:
-      return table_of(kind, impl_->model.tetras);
+      return table_of(kind, impl_->ids(kind), impl_->model.tetras);
     case ElementKind::none:
       break;
   }

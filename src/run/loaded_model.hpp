@@ -1,6 +1,7 @@
 // What is behind abut::Model: the model as the mechanics take it, and the facts that the public interface shows.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,11 +29,14 @@ struct Model::Impl {
   std::vector<PartInfo> parts;
   /// Of model.surfaces, made when they are first asked for: a run has no use for them.
   [[nodiscard]] const std::vector<SurfaceInfo>& surfaces() const;
+  /// Ids of all elements of a kind, or of nodes (none): the same.
+  [[nodiscard]] const std::vector<Id>& ids(ElementKind kind) const;
   std::vector<InterfaceInfo> interfaces;
   double read_seconds = 0.0;
 
  private:
   mutable std::shared_ptr<const std::vector<SurfaceInfo>> surfaces_;
+  mutable std::array<std::shared_ptr<const std::vector<Id>>, 5> ids_;  // by kind
 };
 
 namespace run {

@@ -39,7 +39,7 @@ class SurfaceTopology {
   [[nodiscard]] std::span<const Index> facets_at(Index s) const;
   /// Facet across edge e (corner e to corner e+1) of facet f; no_index at a free border or a junction of more than two.
   /// A triangle has edges 0, 1 and 2 (corner 2 to corner 0). @pre 0 <= f < facet_count(), 0 <= e < corners(f); free_border() too
-  [[nodiscard]] Index neighbour(Index f, int e) const { return neighbours_[static_cast<std::size_t>(f)][static_cast<std::size_t>(e)]; }
+  [[nodiscard]] Index neighbour(Index f, int e) const;
   /// True when edge e of facet f belongs to no other facet.
   [[nodiscard]] bool free_border(Index f, int e) const { return (borders_[static_cast<std::size_t>(f)] >> e & 1) != 0; }
   [[nodiscard]] Index facet_count() const { return static_cast<Index>(local_.size()); }
@@ -57,9 +57,15 @@ class SurfaceTopology {
  private:
   std::vector<Index> at_first_;
   std::vector<Index> at_facet_;
-  std::vector<std::array<Index, 4>> neighbours_;
   std::vector<std::uint8_t> borders_;
   std::vector<Index> by_host_;  // surface nodes by ascending host node; empty: nodes_ ascend
+
+  /// How many other facets edge e of facet f belongs to, and the last of them.
+  struct Across {
+    Index facet = no_index;
+    int count = 0;
+  };
+  [[nodiscard]] Across across(Index f, int e) const;
 };
 
 /// A surface as its host gives it. What changes (stiffness, thickness, activity) is handed to Interface as spans, #F each.

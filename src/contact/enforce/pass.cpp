@@ -65,18 +65,21 @@ Pass::Pass(const Options& options, bool one_pass, std::size_t held_nodes)
 void Pass::start(const Side& held, const Side& surface) {
   started_ = true;
   size_ = surface.mean_size();
-  depth_.resize(at(surface.facet_count()));
-  widening_.resize(at(surface.facet_count()));
+  std::vector<double> depths, widenings;
+  depths.reserve(at(surface.facet_count()));
+  widenings.reserve(at(surface.facet_count()));
   for (Index f = 0; f < surface.facet_count(); ++f) {
     const double length = std::sqrt(surface.facet_area(f));
-    widening_[at(f)] = length > 0.0 ? 1.0 / length : 0.0;
+    widenings.push_back(length > 0.0 ? 1.0 / length : 0.0);
     double depth = options_.depth_limit;
     if (depth <= 0.0) {
       depth = 0.5 * length;
       if (surface.thickness(f) > 0.0) depth = std::min(depth, std::max(surface.thickness(f), options_.gap));
     }
-    depth_[at(f)] = depth;
+    depths.push_back(depth);
   }
+  depth_ = Values(std::move(depths));
+  widening_ = Values(std::move(widenings));
   limit_depths();
   if (closest()) return;
   tracked_.assign(at(held.node_count()), {});
@@ -102,12 +105,12 @@ void Pass::start(const Side& held, const Side& surface) {
 void Pass::limit_depths() {
   smallest_depth_ = 1e300;
   largest_depth_ = 0.0;
-  for (const double d : depth_) {
-    smallest_depth_ = std::min(smallest_depth_, d);
-    largest_depth_ = std::max(largest_depth_, d);
-  }
   longest_ = 0.0;
-  for (const double w : widening_) longest_ = w > 0.0 ? std::max(longest_, 1.0 / w) : longest_;
+  for (std::size_t f = 0; f < depth_.size(); ++f) {
+    smallest_depth_ = std::min(smallest_depth_, depth_[f]);
+    largest_depth_ = std::max(largest_depth_, depth_[f]);
+    if (widening_[f] > 0.0) longest_ = std::max(longest_, 1.0 / widening_[f]);
+  }
 }
 
 void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
@@ -131,7 +134,11 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
     if (s.held == 0 || s.facet == no_index || !surface.active(s.facet)) return reach();
     return std::max(reach(), std::sqrt(closest_point(surface.patch(s.facet), held.x()[at(i)]).squared_distance) + skin_ + further);
   };
-  const auto covers = [&](Index i) { return covered_[at(i)] = reach_of(i); };
+  const auto covers = [&](Index i) {
+    const double distance = reach_of(i);
+    covered_[at(i)] = distance;
+    return distance;
+  };
   const bool renewed = candidates_.update(held, surface, motion, covers, skin_, stale_ || outgrown_, executor_);
   outgrown_ = false;
   if (renewed) block_due_.assign((at(held.node_count()) + at(block) - 1) / at(block), {awake_now, awake_now});

@@ -157,11 +157,11 @@ class Pass {
   bool settled_ = false;    ///< initial penetrations are dealt with
   double keep_ = 1.0;       ///< share of every node's offset that the gradual start leaves in this step
   double skin_ = 0.0, smallest_depth_ = 0.0, largest_depth_ = 0.0, size_ = 0.0;
-  std::vector<double> depth_;     ///< per facet: how far behind a node is still met
-  std::vector<double> widening_;  ///< per facet: 1 / its length at the start
-  double longest_ = 0.0;          ///< length of the largest facet at the start
+  Values depth_;          ///< per facet: how far behind a node is still met
+  Values widening_;       ///< per facet: 1 / its length at the start
+  double longest_ = 0.0;  ///< length of the largest facet at the start
   NodeStates states_;
-  std::vector<double> covered_;  ///< of every held node: distance within which its list has every facet
+  std::vector<contact::Due> covered_;  ///< of every held node: distance within which its list has every facet
   std::vector<Tracked> tracked_;
   std::vector<Index> in_contact_, crossed_, lost_;
   std::vector<GroupSums> groups_;

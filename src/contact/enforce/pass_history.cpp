@@ -20,8 +20,9 @@ void Pass::save(HistoryWriter& out) const {
     if (r == Remembered::all) out.put(state);
   }
   out.put(static_cast<std::uint64_t>(started_ ? depth_.size() : 0));
-  for (const double d : depth_) out.put(d);
-  for (const double w : widening_) out.put(w);
+  for (const Values* values : {&depth_, &widening_}) {
+    for (std::size_t f = 0; f < values->size(); ++f) out.put((*values)[f]);
+  }
   out.put(size_);
   out.put(settled_);
   // Only the incremental search tracks nodes.
@@ -41,10 +42,11 @@ void Pass::load(HistoryReader& in) {
   std::uint64_t facets = 0;
   in.get(facets);
   started_ = facets > 0;
-  depth_.resize(facets);
-  for (double& d : depth_) in.get(d);
-  widening_.resize(facets);
-  for (double& w : widening_) in.get(w);
+  for (Values* values : {&depth_, &widening_}) {
+    std::vector<double> read(facets);
+    for (double& value : read) in.get(value);
+    *values = Values(std::move(read));
+  }
   limit_depths();
   in.get(size_);
   in.get(settled_);

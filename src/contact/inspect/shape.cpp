@@ -100,6 +100,7 @@ void Shape::move(const InspectedSide& side, std::span<const Vec3> x) {
 void Shape::keep_connections() {
   const auto release = [](auto&... values) { (std::remove_reference_t<decltype(values)>().swap(values), ...); };  // = {} keeps the memory
   release(centre_, normal_, area_, box_, shared_);
+  if (!is_nodes()) release(nodes_);
   tree_.forget_bounds();
 }
 
@@ -244,6 +245,7 @@ void Shape::find_pieces(std::span<const Index> borders) {
                                std::span<const Index>(duplicates_)}) {
     for (const Index f : left_out) closable_[at(piece_[at(f)])] = 0;
   }
+  if (one_sided_.size() == 1) std::vector<Index>().swap(piece_);
   find_outside();
 }
 
@@ -251,7 +253,7 @@ void Shape::find_pieces(std::span<const Index> borders) {
 void Shape::find_outside() {
   std::vector<double> volume(one_sided_.size(), 0.0);
   const Vec3 origin = 0.5 * (bounds_.low + bounds_.high);
-  for (Index f = 0; f < count(); ++f) volume[at(piece_[at(f)])] += dot(centre_[at(f)] - origin, area_[at(f)] * normal_[at(f)]);
+  for (Index f = 0; f < count(); ++f) volume[at(piece(f))] += dot(centre_[at(f)] - origin, area_[at(f)] * normal_[at(f)]);
   closed_.resize(one_sided_.size());
   for (std::size_t p = 0; p < closed_.size(); ++p)
     closed_[p] = closable_[p] == 0 || one_sided_[p] != 0 || volume[p] == 0.0 ? 0 : (volume[p] > 0.0 ? 1 : -1);

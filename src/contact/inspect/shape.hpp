@@ -25,7 +25,7 @@ class Shape {
   Shape(const InspectedSide& side, std::span<const Vec3> x);
   /// The same facets elsewhere. What connect() finds is found again only where other facets have no area than before.
   void move(const InspectedSide& side, std::span<const Vec3> x);
-  /// Frees all that move() makes anew, and shared_edges().
+  /// Frees all that move() makes anew, shared_edges(), and the nodes() of facets.
   void keep_connections();
   /// Frees shared_edges(): a look at facing normals does not ask for them.
   void forget_shared_edges();
@@ -59,7 +59,7 @@ class Shape {
   };
   [[nodiscard]] std::span<const Shared> shared_edges() const { return shared_; }
   /// Piece (connected over shared edges) of a facet, and which of the two orientations within the piece it has.
-  [[nodiscard]] Index piece(Index f) const { return piece_[static_cast<std::size_t>(f)]; }
+  [[nodiscard]] Index piece(Index f) const { return piece_.empty() ? 0 : piece_[static_cast<std::size_t>(f)]; }
   [[nodiscard]] bool turned(Index f) const { return turned_[static_cast<std::size_t>(f)] != 0; }
   [[nodiscard]] Index piece_count() const { return static_cast<Index>(one_sided_.size()); }
   /// True for a piece like a Moebius band, which no flipping makes alike.
@@ -82,7 +82,7 @@ class Shape {
   std::vector<CoarseBounds> box_;
   std::vector<Index> nodes_, degenerate_, duplicates_, at_junctions_;
   std::vector<Shared> shared_;
-  std::vector<Index> piece_;
+  std::vector<Index> piece_;                                 ///< empty: all are one piece
   std::vector<std::uint8_t> turned_, one_sided_, closable_;  ///< of a piece: no borders, and its normals agree
   std::vector<int> closed_;
   NearestTree tree_;

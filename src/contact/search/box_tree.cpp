@@ -11,7 +11,7 @@ void BoxTree::update() {
   items_.resize(boxes_.size());
   std::iota(items_.begin(), items_.end(), 0);
   nodes_.clear();
-  if (boxes_.size() > 8) nodes_.reserve(boxes_.size() / 2);  // leaves of four to eight boxes, and as many nodes above them
+  if (boxes_.size() > 16) nodes_.reserve(boxes_.size() / 4);  // leaves of eight to sixteen boxes, and as many nodes above them
   if (!boxes_.empty()) split(0, static_cast<Index>(boxes_.size()));
   size_ = refit();
 }
@@ -50,7 +50,7 @@ Index BoxTree::split(Index first, Index last) {
     const Index i = items_[static_cast<std::size_t>(k)];
     centres.include(centre(i));
   }
-  constexpr Index leaf = 8;
+  constexpr Index leaf = 16;
   if (last - first <= leaf) {
     node.first = first;
     node.count = last - first;

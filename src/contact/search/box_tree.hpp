@@ -91,8 +91,8 @@ class BoxTree {
   [[nodiscard]] bool meets(Index i, const CoarseBounds& query) const { return boxes_[static_cast<std::size_t>(i)].meets(query); }
   /// Box i or a little more. @pre not forgotten
   [[nodiscard]] Bounds box(Index i) const { return boxes_[static_cast<std::size_t>(i)].bounds(); }
-  /// Makes the tree of the boxes: median splits along the widest side, leaves of at most eight boxes. Where the boxes of the last time have
-  /// only moved, its nodes get new bounds, as long as these are not much larger.
+  /// Makes the tree of the boxes: median splits along the widest side, leaves of at most sixteen boxes. Where the boxes of the last time
+  /// have only moved, its nodes get new bounds, as long as these are not much larger.
   void update();
 
   /// Calls visit(i) for every box i that meets `query`, and perhaps for some that come as near to it as rounding (or, with boxes forgotten,

@@ -1,9 +1,7 @@
 #include "contact/surface/side.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,30 +19,20 @@ double angle_from_cosine(double c) {
 
 }  // namespace
 
-Values::Values(std::vector<double> values) : count_(values.size()) {
-  const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v); };
-  const bool alike =
-      !values.empty() && std::all_of(values.begin(), values.end(), [&](double v) { return bits(v) == bits(values.front()); });
-  if (alike) {
-    each_ = 0;
-    values_.push_back(values.front());
-  } else {
-    values_ = std::move(values);
-  }
-}
-
 Side::Side(Surface surface, bool canonical) {
-  listed_.resize(at(surface.facet_count()));
-  std::iota(listed_.begin(), listed_.end(), 0);
   if (canonical) {
-    listed_ = surface.canonical_order();
-    surface = surface.reordered(listed_);
+    std::vector<Index> order = surface.canonical_order();
+    if (!std::is_sorted(order.begin(), order.end())) {
+      surface = surface.reordered(order);
+      listed_ = std::move(order);
+    }
   }
   surface_ = std::move(static_cast<SurfaceTopology&>(surface));  // facets by host nodes follow from it
   x_.resize(surface_.nodes().size());
-  active_.assign(listed_.size(), 1);
-  borders_.assign(listed_.size(), 0);
-  facet_stiffness_ = Values(std::vector<double>(listed_.size(), 0.0));
+  const std::size_t facets = at(surface_.facet_count());
+  active_.assign(facets, 1);
+  borders_.assign(facets, 0);
+  facet_stiffness_ = Values(std::vector<double>(facets, 0.0));
   node_active_.assign(x_.size(), 1);
   node_stiffness_ = Values(std::vector<double>(x_.size(), 0.0));
   corner_stiffness_ = node_stiffness_;
@@ -58,7 +46,7 @@ Side::Side(std::vector<Index> nodes, std::vector<double> stiffness)
 
 void Side::set(const SurfaceState& state, bool third_node_twice) {
   const bool facets = surface_.facet_count() > 0;
-  const std::size_t count = facets ? listed_.size() : x_.size();
+  const std::size_t count = facets ? at(surface_.facet_count()) : x_.size();
   const auto check = [count](std::size_t length, const char* what) {
     if (length != 0 && length != count) {
       throw std::invalid_argument("contact: " + std::to_string(length) + " values of " + what + " for " + std::to_string(count));
@@ -92,20 +80,13 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     if (given.empty()) return;
     std::vector<double> mine;
     mine.reserve(given.size());
-    for (const Index from : listed_) mine.push_back(given[at(from)]);
+    for (Index f = 0; f < surface_.facet_count(); ++f) mine.push_back(given[at(listed(f))]);
     values = Values(std::move(mine));
   };
   take(state.stiffness, facet_stiffness_);
   take(state.thickness, thickness_);
-  for (std::size_t f = 0; f < state.active.size(); ++f) active_[f] = state.active[at(listed_[f])];
-  for (Index f = 0; f < surface_.facet_count(); ++f) {
-    unsigned borders = 0;
-    for (int e = 0; e < surface_.corners(f); ++e) {
-      const Index other = surface_.neighbour(f, e);
-      if (surface_.free_border(f, e) || (other != no_index && !active(other))) borders |= 1u << e;
-    }
-    borders_[at(f)] = static_cast<std::uint8_t>(borders);
-  }
+  for (std::size_t f = 0; f < state.active.size(); ++f) active_[f] = state.active[at(listed(static_cast<Index>(f)))];
+  find_borders();
   largest_corner_stiffness_ = 0.0;
   smallest_corner_stiffness_ = 1e300;
   double thinnest = 1e300, thickest = 0.0;  // of active corners
@@ -140,9 +121,23 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   evenly_thick_ = thinnest >= (1.0 - 1e-9) * thickest;
 }
 
+void Side::find_borders() {
+  const auto add = [this](Index f, int e) { borders_[at(f)] = static_cast<std::uint8_t>(borders_[at(f)] | (1u << e)); };
+  std::fill(borders_.begin(), borders_.end(), std::uint8_t{0});
+  for (Index f = 0; f < surface_.facet_count(); ++f) {
+    for (int e = 0; e < surface_.corners(f); ++e) {
+      if (surface_.free_border(f, e)) add(f, e);
+      const Index beside = active(f) ? no_index : surface_.neighbour(f, e);
+      for (int k = 0; beside != no_index && k < surface_.corners(beside); ++k) {
+        if (surface_.neighbour(beside, k) == f) add(beside, k);
+      }
+    }
+  }
+}
+
 std::vector<double> Side::as_listed(const Values& values) const {
   std::vector<double> out(values.size());
-  for (std::size_t i = 0; i < out.size(); ++i) out[listed_.empty() ? i : at(listed_[i])] = values[i];
+  for (std::size_t i = 0; i < out.size(); ++i) out[at(listed(static_cast<Index>(i)))] = values[i];
   return out;
 }
 

@@ -8,24 +8,11 @@
 
 #include "abut/contact/interface.hpp"
 #include "contact/project/closest_point.hpp"
+#include "contact/surface/values.hpp"
 
 namespace abut::contact {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-/// Numbers of facets or nodes. Where all are alike, as of an even mesh of one part, they take the room of one.
-class Values {
- public:
-  Values() = default;
-  explicit Values(std::vector<double> values);
-  [[nodiscard]] bool empty() const { return count_ == 0; }
-  [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] double operator[](std::size_t i) const { return values_[i & each_]; }
-
- private:
-  std::size_t count_ = 0, each_ = ~std::size_t{0};  ///< each_: 0 where one stands for all
-  std::vector<double> values_;
-};
 
 class Side {
  public:
@@ -44,7 +31,7 @@ class Side {
   [[nodiscard]] Index node_count() const { return static_cast<Index>(x_.size()); }
   [[nodiscard]] Index facet_count() const { return surface_.facet_count(); }
   /// Position of facet f in the host's list.
-  [[nodiscard]] Index listed(Index f) const { return listed_[at(f)]; }
+  [[nodiscard]] Index listed(Index f) const { return listed_.empty() ? f : listed_[at(f)]; }
   /// What set() was given last, in the host's order.
   [[nodiscard]] std::vector<double> listed_stiffness() const { return as_listed(facet_count() > 0 ? facet_stiffness_ : node_stiffness_); }
   [[nodiscard]] std::vector<double> listed_thickness() const { return as_listed(facet_count() > 0 ? thickness_ : node_thickness_); }
@@ -96,13 +83,15 @@ class Side {
  private:
   SurfaceTopology surface_;
   std::vector<Index> nodes_;   ///< without facets
-  std::vector<Index> listed_;  ///< facet number as the host listed it
+  std::vector<Index> listed_;  ///< facet number as the host listed it; empty: the same
   std::vector<std::uint8_t> active_, node_active_, borders_;
   Values facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_, node_thickness_;
   double largest_corner_stiffness_ = 0.0, smallest_corner_stiffness_ = 0.0;  ///< of active corners
   bool evenly_thick_ = true;
   std::vector<Vec3> x_;
 
+  /// Free borders and edges at eroded facets.
+  void find_borders();
   [[nodiscard]] std::vector<double> as_listed(const Values& values) const;
 };
 

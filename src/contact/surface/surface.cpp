@@ -13,13 +13,6 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 // Two node numbers as one: orders as the pair does, in one comparison.
 std::uint64_t pair_key(Index a, Index b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b); }
 
-// Edge of a facet; the key of its end nodes, in ascending order, is equal for the two facets that share it.
-struct Edge {
-  std::uint64_t nodes;
-  Index facet;
-  int number;
-};
-
 // Nodes of a facet in ascending order, and the facet.
 struct FacetKey {
   std::array<std::uint64_t, 2> nodes;
@@ -64,6 +57,7 @@ Surface::Surface(std::vector<Facet> facets, std::span<const Id> node_key) : face
   for (const Facet& facet : facets_) nodes_.insert(nodes_.end(), facet.node.begin(), facet.node.end());
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  nodes_.shrink_to_fit();
   if (!node_key.empty()) {
     if (!nodes_.empty() && at(nodes_.back()) >= node_key.size()) {
       throw std::invalid_argument("contact surface: node " + std::to_string(nodes_.back()) + " has no key");
@@ -101,35 +95,39 @@ void SurfaceTopology::connect(std::span<const Facet> facets) {
   std::partial_sum(at_first_.begin(), at_first_.end(), at_first_.begin());
   at_facet_.resize(at(at_first_.back()));
   std::vector<Index> next(at_first_.begin(), at_first_.end() - 1);
-  std::vector<Edge> edges;
-  edges.reserve(facets.size() * 4);
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    const int corners = facets[f].corners();
-    for (int i = 0; i < corners; ++i) {
-      const Index a = local_[f][static_cast<std::size_t>(i)];
-      const Index b = local_[f][static_cast<std::size_t>((i + 1) % corners)];
-      at_facet_[at(next[at(a)]++)] = static_cast<Index>(f);
-      edges.push_back({pair_key(std::min(a, b), std::max(a, b)), static_cast<Index>(f), i});
+    for (int i = 0; i < facets[f].corners(); ++i) {
+      at_facet_[at(next[at(local_[f][static_cast<std::size_t>(i)])]++)] = static_cast<Index>(f);
     }
   }
 
-  neighbours_.assign(facets.size(), {no_index, no_index, no_index, no_index});
   borders_.assign(facets.size(), 0);
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.facet < b.facet; });
-  for (std::size_t first = 0; first < edges.size();) {
-    std::size_t last = first + 1;
-    while (last < edges.size() && edges[last].nodes == edges[first].nodes) ++last;
-    const Edge& a = edges[first];
-    if (last - first == 1) {
-      borders_[at(a.facet)] = static_cast<std::uint8_t>(borders_[at(a.facet)] | (1u << a.number));
-    } else if (last - first == 2) {
-      const Edge& b = edges[first + 1];
-      neighbours_[at(a.facet)][static_cast<std::size_t>(a.number)] = b.facet;
-      neighbours_[at(b.facet)][static_cast<std::size_t>(b.number)] = a.facet;
+  for (Index f = 0; f < facet_count(); ++f) {
+    for (int e = 0; e < corners(f); ++e) {
+      if (across(f, e).count == 0) borders_[at(f)] = static_cast<std::uint8_t>(borders_[at(f)] | (1u << e));
     }
-    first = last;
   }
+}
+
+SurfaceTopology::Across SurfaceTopology::across(Index f, int e) const {
+  const auto edge = [this](Index facet, int number) -> std::pair<Index, Index> {
+    const std::array<Index, 4>& n = local_[at(facet)];
+    return std::minmax(n[static_cast<std::size_t>(number)], n[static_cast<std::size_t>((number + 1) % corners(facet))]);
+  };
+  const std::pair<Index, Index> own = edge(f, e);
+  const std::span<const Index> first = facets_at(own.first), second = facets_at(own.second);
+  Across found;
+  for (const Index g : first.size() <= second.size() ? first : second) {
+    for (int i = 0; g != f && i < corners(g); ++i) {
+      if (edge(g, i) == own) found = {g, found.count + 1};
+    }
+  }
+  return found;
+}
+
+Index SurfaceTopology::neighbour(Index f, int e) const {
+  const Across other = across(f, e);
+  return other.count == 1 ? other.facet : no_index;
 }
 
 std::span<const Index> SurfaceTopology::facets_at(Index s) const {

@@ -1,0 +1,44 @@
+// Numbers of facets or nodes, of which few differ.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace abut::contact {
+
+/// The same bits as the numbers that it is made of. Where all are alike they take the room of one, where at most 256 differ, as on an even
+/// mesh, a byte each.
+class Values {
+ public:
+  Values() = default;
+  explicit Values(std::vector<double> values) : count_(values.size()) {
+    constexpr std::size_t most = 256;
+    std::unordered_map<std::uint64_t, std::uint8_t> number;
+    number_.reserve(count_);
+    for (const double v : values) {
+      const auto [found, added] = number.try_emplace(std::bit_cast<std::uint64_t>(v), static_cast<std::uint8_t>(different_.size()));
+      if (added && different_.size() == most) {
+        different_ = std::move(values);
+        break;
+      }
+      if (added) different_.push_back(v);
+      number_.push_back(found->second);
+    }
+    if (different_.size() == 1 || different_.size() > most) std::vector<std::uint8_t>().swap(number_);
+    if (different_.size() == 1) each_ = 0;
+  }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] double operator[](std::size_t i) const { return different_[number_.empty() ? i & each_ : number_[i]]; }
+
+ private:
+  std::size_t count_ = 0, each_ = ~std::size_t{0};  ///< each_: 0 where one stands for all
+  std::vector<double> different_;
+  std::vector<std::uint8_t> number_;  ///< empty: one stands for all, or every value has its own
+};
+
+}  // namespace abut::contact
