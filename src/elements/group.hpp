@@ -17,9 +17,9 @@
 #include "abut/vec3.hpp"
 #include "core/profile.hpp"
 #include "elements/chunks.hpp"
-#include "elements/few_values.hpp"
 #include "model/model.hpp"
 #include "parallel/thread_pool.hpp"
+#include "simd/few_values.hpp"
 
 namespace abut::elements {
 
@@ -178,7 +178,8 @@ class Group {
   /// the next, because there are fewer nodes than corners.
   struct NodalShares {
     bool valid = false;
-    FewValues mass, inertia;
+    using Values = simd::FewValues<std::uint16_t>;
+    Values mass, inertia;
     std::vector<PartSums> leaves;  ///< per chunk
     /// Those of a chunk. @param w  null: nothing turns
     void sum(const ChunkTable& chunks, std::size_t chunk, const Vec3* v, const Vec3* w);

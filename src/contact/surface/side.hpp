@@ -8,11 +8,14 @@
 
 #include "abut/contact/interface.hpp"
 #include "contact/project/closest_point.hpp"
-#include "contact/surface/values.hpp"
+#include "simd/few_values.hpp"
 
 namespace abut::contact {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Of facets or nodes of a surface.
+using Values = simd::FewValues<std::uint8_t>;
 
 class Side {
  public:

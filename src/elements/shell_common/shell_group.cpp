@@ -384,8 +384,8 @@ void ShellGroup::share_masses() const {
       inertias[place] += share * (t * t + area) / 12.0;
     }
   }
-  shares_.mass = FewValues(std::move(masses));
-  shares_.inertia = FewValues(std::move(inertias));
+  shares_.mass = NodalShares::Values(std::move(masses));
+  shares_.inertia = NodalShares::Values(std::move(inertias));
   shares_.leaves.resize(static_cast<std::size_t>(chunks_.size()));
   shares_.valid = true;
 }

@@ -301,7 +301,7 @@ void SolidGroup::share_masses() const {
     const double mass = reference_part_mass_ ? at(e, f_density) * at(e, f_volume) : at(e, f_mass);
     for (int k = 0; k < nodes_per_element_; ++k) masses[chunks_.place(e, k)] += share * mass;
   }
-  shares_.mass = FewValues(std::move(masses));
+  shares_.mass = NodalShares::Values(std::move(masses));
   shares_.leaves.resize(static_cast<std::size_t>(chunks_.size()));
   shares_.valid = true;
 }

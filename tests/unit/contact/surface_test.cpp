@@ -1,13 +1,9 @@
-// Who is whose neighbour, and the room that numbers of facets take.
+// Who is whose neighbour.
 #include "abut/contact/surface.hpp"
 
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cstdint>
-#include <vector>
-
-#include "contact/surface/values.hpp"
+#include <utility>
 
 namespace abut::contact {
 namespace {
@@ -25,20 +21,6 @@ TEST(Surface, FacetsThatShareAnEdgeAreNeighboursButNotAtAJunction) {
     EXPECT_EQ(s.neighbour(facet, edge), no_index);
     EXPECT_TRUE(s.free_border(facet, edge));
   }
-}
-
-TEST(Values, GiveBackTheBitsOfFewAndOfManyDifferentNumbers) {
-  for (const std::size_t different : {1U, 3U, 256U, 257U, 1000U}) {
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < 1000; ++i) numbers.push_back(i % different == 0 ? -0.0 : 1.0 / static_cast<double>(i % different));
-    const Values values(numbers);
-    ASSERT_EQ(values.size(), numbers.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(values[i]), std::bit_cast<std::uint64_t>(numbers[i])) << different << " " << i;
-    }
-  }
-  EXPECT_TRUE(Values().empty());
-  EXPECT_TRUE(Values(std::vector<double>()).empty());
 }
 
 }  // namespace
