@@ -89,11 +89,24 @@ std::optional<SetReader::SignedParts> SetReader::parts_of(BlockReader& r, std::s
   return parts;
 }
 
-void SetReader::add_ranges(BlockReader& r, bool triples, const std::vector<std::pair<std::vector<Id>, Index>>& tables, Members& out) {
+void SetReader::add_ranges(BlockReader& r, bool triples, const std::vector<std::pair<const Ids*, Index>>& tables, Members& out) {
+  // Place of the first id that is not below `wanted`.
+  const auto first_of = [](const Ids& ids, Id wanted) {
+    std::size_t low = 0, high = ids.size();
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (ids[middle] < wanted) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
+  };
   const auto add = [&](Id first, Id last, Id step) {
     for (const auto& [ids, offset] : tables) {
-      for (auto it = std::lower_bound(ids.begin(), ids.end(), first); it != ids.end() && *it <= last; ++it) {
-        if ((*it - first) % step == 0) out.push_back(static_cast<Index>(it - ids.begin()) + offset);
+      for (std::size_t k = first_of(*ids, first); k < ids->size() && (*ids)[k] <= last; ++k) {
+        if (((*ids)[k] - first) % step == 0) out.push_back(static_cast<Index>(k) + offset);
       }
     }
   };
@@ -233,7 +246,7 @@ void SetReader::evaluate_node_group(Item& item) {
     }
     warn_missing(r, "/NODE", missing);
   } else if (type == "GENE" || type == "GEN_INCR") {
-    add_ranges(r, type == "GEN_INCR", {{m_.node_id.all(), 0}}, plus);
+    add_ranges(r, type == "GEN_INCR", {{&m_.node_id, 0}}, plus);
   } else if (type == "GRNOD") {
     plus = combine_groups(r, SetFamily::grnod, "/GRNOD", [](Index n, Members& out) { out.push_back(n); });
   } else if (type == "GRSHEL" || type == "GRSH3N" || type == "GRBRIC") {
@@ -298,9 +311,9 @@ void SetReader::evaluate_element_group(Item& item) {
     warn_missing(r, family == SetFamily::grshel ? "/SHELL" : (family == SetFamily::grsh3n ? "/SH3N" : "/BRICK or /TETRA4"), missing);
   } else if (type == "GENE" || type == "GEN_INCR") {
     const bool triples = type == "GEN_INCR";
-    if (family == SetFamily::grshel) add_ranges(r, triples, {{m_.shells.id.all(), 0}}, plus);
-    if (family == SetFamily::grsh3n) add_ranges(r, triples, {{m_.sh3ns.id.all(), 0}}, plus);
-    if (family == SetFamily::grbric) add_ranges(r, triples, {{m_.bricks.id.all(), 0}, {m_.tetras.id.all(), m_.bricks.size()}}, plus);
+    if (family == SetFamily::grshel) add_ranges(r, triples, {{&m_.shells.id, 0}}, plus);
+    if (family == SetFamily::grsh3n) add_ranges(r, triples, {{&m_.sh3ns.id, 0}}, plus);
+    if (family == SetFamily::grbric) add_ranges(r, triples, {{&m_.bricks.id, 0}, {&m_.tetras.id, m_.bricks.size()}}, plus);
   } else if (type == family_name(family).substr(1)) {
     plus = combine_groups(r, family, family_name(family), [](Index e, Members& out) { out.push_back(e); });
   } else if (type == "BOX" || type == "BOX2") {
@@ -328,9 +341,9 @@ void SetReader::evaluate_part_group(Item& item) {
   if (type == "GRPART") {
     item.members = combine_groups(r, SetFamily::grpart, "/GRPART", [](Index p, Members& out) { out.push_back(p); });
   } else if (type == "GENE" || type == "GEN_INCR") {
-    std::vector<Id> ids;
+    Ids ids;
     for (const Part& p : m_.parts) ids.push_back(p.id);
-    add_ranges(r, type == "GEN_INCR", {{ids, 0}}, item.members);
+    add_ranges(r, type == "GEN_INCR", {{&ids, 0}}, item.members);
     make_set(item.members);
   } else if (std::optional<SignedParts> parts = parts_of(r, type, signed_ids(r, "ID"))) {
     make_set(parts->plus);

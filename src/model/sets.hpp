@@ -73,7 +73,7 @@ class SetReader {
   [[nodiscard]] std::vector<Index> parts_of_subset(Id subset) const;
   [[nodiscard]] bool subset_exists(Id subset) const;
   /// Members of `ids` (sorted) within the ranges of the block's cards; `offset` is added to each index.
-  void add_ranges(BlockReader& r, bool triples, const std::vector<std::pair<std::vector<Id>, Index>>& tables, Members& out);
+  void add_ranges(BlockReader& r, bool triples, const std::vector<std::pair<const Ids*, Index>>& tables, Members& out);
   void append_nodes_of_part(Index part, Members& out) const;
   void append_nodes_of_element(SetFamily family, Index element, Members& out) const;
   [[nodiscard]] const Members& elements_of_part(SetFamily family, Index part) const;
