@@ -13,26 +13,27 @@ constexpr double clear_cosine = 0.5;  // less than this between normal and line 
 constexpr double clear_share = 0.25;  // less than this net share of the votes decides nothing
 constexpr double touching = 1e-6;     // of the facets' size: no line of sight
 
+// How far is looked: a hair beyond the reach.
+double within(double smallest, double margin) { return (1.0 + 1e-9) * (smallest + margin); }
+
 struct Votes {
   double sum = 0.0, weight = 0.0;
 };
 
 double size_of(const Shape& s, Index f) { return std::sqrt(s.area(f)); }
 
-// Nearest points of `b` to the centres of `a`, where there are any within `radius`.
-std::vector<NearPoint> sights(const Shape& a, const Shape& b, double radius) {
+// Nearest points of `b` to the centres of `a`, of all that are not farther than the smallest of these distances, which is looked for on the
+// way, by more than `margin`.
+std::vector<NearPoint> sights(const Shape& a, const Shape& b, double margin, double& smallest) {
   std::vector<NearPoint> out(at(a.count()));
-  for (Index i = 0; i < a.count(); ++i) out[at(i)] = b.nearest(a.centre(i), radius);
-  return out;
-}
-
-// Smallest distance of the centres of `a` to `b`, or `bound` where it is not less: the search stays short.
-double smallest_distance(const Shape& a, const Shape& b, double bound) {
+  Index last = no_index;
   for (Index i = 0; i < a.count(); ++i) {
-    const NearPoint p = b.nearest(a.centre(i), bound);
-    if (p.found()) bound = std::sqrt(p.squared);
+    const NearPoint p = out[at(i)] = b.nearest(a.centre(i), within(smallest, margin), no_index, last);
+    if (!p.found()) continue;
+    smallest = std::min(smallest, std::sqrt(p.squared));
+    last = p.item;
   }
-  return bound;
+  return out;
 }
 
 class Looker {
@@ -128,12 +129,13 @@ BothViews empty_views(const std::array<Shape, 2>& shapes) {
   return out;
 }
 
-double reach_of(const std::array<Shape, 2>& shapes, double smallest, double gap) {
+// How much farther than the smallest distance facets count as near.
+double margin_of(const std::array<Shape, 2>& shapes, double gap) {
   double size = 1e300;
   for (const Shape& s : shapes) {
     if (!s.is_nodes()) size = std::min(size, s.mean_size());
   }
-  return smallest + std::max(gap, 2.0 * size);
+  return std::max(gap, 2.0 * size);
 }
 
 }  // namespace
@@ -141,10 +143,17 @@ double reach_of(const std::array<Shape, 2>& shapes, double smallest, double gap)
 BothViews look(const std::array<Shape, 2>& shapes, double gap) {
   BothViews out = empty_views(shapes);
   if (shapes[0].count() == 0 || shapes[1].count() == 0) return out;
-  out.smallest = smallest_distance(shapes[1], shapes[0], smallest_distance(shapes[0], shapes[1], 1e150));
-  out.reach = reach_of(shapes, out.smallest, gap);
-  const double radius = (1.0 + 1e-9) * out.reach;
-  const std::array<std::vector<NearPoint>, 2> seen{sights(shapes[0], shapes[1], radius), sights(shapes[1], shapes[0], radius)};
+  const double margin = margin_of(shapes, gap);
+  out.smallest = 1e150;
+  std::array<std::vector<NearPoint>, 2> seen;
+  for (std::size_t k = 0; k < 2; ++k) seen[k] = sights(shapes[k], shapes[1 - k], margin, out.smallest);
+  out.reach = out.smallest + margin;
+  const double radius = within(out.smallest, margin);
+  for (std::vector<NearPoint>& points : seen) {
+    for (NearPoint& p : points) {
+      if (p.squared > radius * radius) p = {};
+    }
+  }
   for (std::size_t k = 0; k < 2; ++k) {
     if (!shapes[k].is_nodes()) out.side[k] = Looker(shapes[k], shapes[1 - k], seen[k], seen[1 - k], out.reach).run();
   }
@@ -162,7 +171,7 @@ BothViews look_unsigned(const std::array<Shape, 2>& shapes, std::span<const Vec3
   }
   if (squared == 1e300) return out;
   out.smallest = std::sqrt(squared);
-  out.reach = reach_of(shapes, out.smallest, gap);
+  out.reach = out.smallest + margin_of(shapes, gap);
   return out;
 }
 

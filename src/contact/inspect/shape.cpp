@@ -264,9 +264,10 @@ int Shape::outward(Index f) const {
   return closed(piece(f));
 }
 
-NearPoint Shape::nearest(const Vec3& from, double radius, Index except) const {
+NearPoint Shape::nearest(const Vec3& from, double radius, Index except, Index guess) const {
   NearPoint best;
-  tree_.search(from, radius * radius, [&](Index i, double& limit) {
+  double within = radius * radius;
+  const auto visit = [&](Index i, double& limit) {
     if (squared_distance(box_[at(i)].bounds(), from) > limit) return;
     const auto take = [&](const Vec3& point) {
       const double squared = squared_norm(point - from);
@@ -281,7 +282,9 @@ NearPoint Shape::nearest(const Vec3& from, double radius, Index except) const {
     if (except != no_index && std::find(facet(i).node.begin(), facet(i).node.end(), except) != facet(i).node.end()) return;
     take(closest_on_triangle(from, corner(i, 0), corner(i, 1), corner(i, 2)));
     if (!facet(i).is_triangle()) take(closest_on_triangle(from, corner(i, 0), corner(i, 2), corner(i, 3)));
-  });
+  };
+  if (guess != no_index) visit(guess, within);
+  tree_.search(from, within, visit);
   return best;
 }
 

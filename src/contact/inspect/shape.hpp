@@ -70,7 +70,8 @@ class Shape {
   [[nodiscard]] int outward(Index f) const;
 
   /// Nearest point within `radius`, on facets that do not have the node `except` for a corner.
-  [[nodiscard]] NearPoint nearest(const Vec3& from, double radius, Index except = no_index) const;
+  /// @param guess  an item that may be near: it only makes the search short
+  [[nodiscard]] NearPoint nearest(const Vec3& from, double radius, Index except = no_index, Index guess = no_index) const;
   /// True when a facet other than `except` crosses the segment from a to b (ends excluded).
   [[nodiscard]] bool hides(const Vec3& a, const Vec3& b, Index except) const;
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "contact/inspect/shape.hpp"
 #include "inspect_scenes.hpp"
 
 namespace abut::contact {
@@ -201,6 +202,31 @@ TEST(Facing, orient_undoes_any_mixture) {
     EXPECT_DOUBLE_EQ(a[k].fraction(), 1.0);
   }
   EXPECT_FALSE(test::has_errors(inspect(p.input())));
+}
+
+/// A guess makes the search for the nearest facet short and changes nothing, also where several are equally near.
+TEST(Facing, guesses_change_no_answer) {
+  Pair p;
+  p.facets[0] = p.plate(8, 8, 0.0, 1.0, 0.0, true);
+  p.facets[1] = p.plate(3, 3, 0.0, 1.0, 0.3, true);
+  const Shape shape(p.input().side[0], p.x);
+  int ties = 0;
+  for (int i = -4; i <= 20; ++i) {
+    for (int j = -4; j <= 20; ++j) {
+      const Vec3 from{i / 16.0, j / 16.0, 0.01 * ((i * 7 + j * 3) % 5)};  // over corners, edges, centres, and outside
+      for (const double radius : {0.05, 0.2, 1e150}) {
+        const NearPoint alone = shape.nearest(from, radius);
+        ties += i % 2 == 0 && alone.found() ? 1 : 0;
+        for (Index guess = 0; guess < shape.count(); guess += 5) {
+          const NearPoint guided = shape.nearest(from, radius, no_index, guess);
+          ASSERT_EQ(guided.item, alone.item) << i << " " << j << " " << guess;
+          ASSERT_EQ(guided.squared, alone.squared);
+          ASSERT_EQ(guided.point, alone.point);
+        }
+      }
+    }
+  }
+  EXPECT_GT(ties, 100);
 }
 
 }  // namespace
