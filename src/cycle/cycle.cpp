@@ -1,7 +1,6 @@
 #include "cycle/cycle.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "cycle/node_kernels.hpp"
@@ -10,17 +9,6 @@ namespace abut::cycle {
 
 namespace {
 constexpr std::size_t node_grain = 1024;  // nodes that make a loop worth a thread
-
-/// Zeros. Where there are zeros already nothing is written: most nodes feel no contact, and memory that was never written is not there.
-void clear(double* values, std::size_t count) {
-  constexpr std::size_t piece = 64;
-  for (std::size_t begin = 0; begin < count; begin += piece) {
-    const std::size_t end = std::min(count, begin + piece);
-    std::uint64_t any = 0;
-    for (std::size_t i = begin; i < end; ++i) any |= std::bit_cast<std::uint64_t>(values[i]);
-    if (any != 0) std::fill(values + begin, values + end, 0.0);
-  }
-}
 }  // namespace
 
 /// Adds the wall-clock time of a scope to a phase.
@@ -165,10 +153,13 @@ void Cycle::contact_forces(StepLimits& limits) {
   }
   const Timer timer(*this, p_contact);
   if (interfaces_.empty()) return;
-  pool_.for_ranges(state_.mass.size(), 4 * node_grain, [this](std::size_t begin, std::size_t end) {
-    clear(&state_.f_contact.data()->x + 3 * begin, 3 * (end - begin));
-    clear(contact_stiffness_.data() + begin, end - begin);
-  });
+  if (contact_known_) {
+    for (const init::RunInterface& i : interfaces_) i.contact.clear(state_.f_contact, contact_stiffness_);
+  } else {
+    std::fill(state_.f_contact.begin(), state_.f_contact.end(), Vec3{});
+    std::fill(contact_stiffness_.begin(), contact_stiffness_.end(), 0.0);
+    contact_known_ = true;
+  }
   for (init::RunInterface& i : interfaces_) {
     const contact::StepResult r = i.contact.evaluate(host, state_.f_contact, contact_stiffness_);
     InterfaceResult& out = interface_results_[static_cast<std::size_t>(i.model_index)];

@@ -112,8 +112,9 @@ class Cycle {
   int bodies_revision_ = -1;
 
   std::vector<init::RunInterface> interfaces_;
-  std::vector<bool> recording_;                                 // #recordings: begun
-  state::ZeroArray<double> contact_stiffness_;                  // #N
+  std::vector<bool> recording_;                 // #recordings: begun
+  state::ZeroArray<double> contact_stiffness_;  // #N
+  bool contact_known_ = true;  // interfaces know where it and the contact forces are not zero: not so in the cycle after a checkpoint
   state::ZeroArray<Vec3> contact_normal_, contact_tangential_;  // #N when an animation is due, else empty
   ContactMobility contact_mobility_;
   ContactFacing contact_facing_;

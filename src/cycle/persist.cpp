@@ -68,6 +68,7 @@ void Cycle::persist(state::Archive& a) {
       if (!a.loading()) history = i.contact.history();
       a.growing(history);
       if (!a.loading()) continue;
+      contact_known_ = false;
       try {
         i.contact.restore(history);
       } catch (const std::exception& error) { throw state::ArchiveError(error.what()); }

@@ -260,6 +260,13 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   return result;
 }
 
+void BothSides::clear(std::span<Vec3> force, std::span<double> stiffness) const {
+  for (const Index node : own_) {
+    force[at(node)] = {};
+    stiffness[at(node)] = 0.0;
+  }
+}
+
 double BothSides::discrete_work(const HostState& host) {
   double work = 0.0;
   for (std::size_t i = 0; i < own_.size(); ++i) {

@@ -21,6 +21,7 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const override;
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
+  void clear(std::span<Vec3> force, std::span<double> stiffness) const override;
   void commit(double) override {}
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;

@@ -62,15 +62,14 @@ struct Interface::Made {
     check(host.v.size(), "v");
     check(host.mass.size(), "mass", true);
     check(host.constrained.size(), "constrained", true);
-    if (host.constrained.empty()) return;
-    for (std::size_t k = 0; k < 2; ++k) {
-      for (const Index n : model->side(k).nodes()) {
-        const Index entry = host.constrained[static_cast<std::size_t>(n)];
-        if (entry == no_index || (entry >= 0 && static_cast<std::size_t>(entry) < host.mobility.size())) continue;
-        throw std::invalid_argument("contact: constrained names entry " + std::to_string(entry) + " of " +
-                                    std::to_string(host.mobility.size()));
-      }
+    Index lowest = no_index, highest = no_index;
+    for (const Index entry : host.constrained) {
+      lowest = std::min(lowest, entry);
+      highest = std::max(highest, entry);
     }
+    if (lowest >= no_index && (highest == no_index || static_cast<std::size_t>(highest) < host.mobility.size())) return;
+    throw std::invalid_argument("contact: constrained names entry " + std::to_string(lowest < no_index ? lowest : highest) + " of " +
+                                std::to_string(host.mobility.size()));
   }
   [[nodiscard]] std::vector<std::byte> history() const {
     HistoryWriter out(fingerprint);
@@ -194,6 +193,12 @@ void Interface::commit(double dt) {
   if (made_->recorder) made_->recorder->commit(dt);
   made_->model->commit(dt);
   made_->stage = Made::Stage::idle;
+}
+
+void Interface::clear(std::span<Vec3> force, std::span<double> stiffness) const {
+  made_->check(force.size(), "force");
+  made_->check(stiffness.size(), "stiffness");
+  made_->model->clear(force, stiffness);
 }
 
 void Interface::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const {

@@ -289,6 +289,18 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   return result;
 }
 
+void OneSided::clear(std::span<Vec3> force, std::span<double> stiffness) const {
+  for (std::size_t k = 0; k < 2; ++k) {
+    over_pieces(k, [&](std::size_t begin, std::size_t end) {
+      loads_[k].for_loaded(begin, end, [&](std::size_t s) {
+        const std::size_t node = at(side_[k].nodes()[s]);
+        force[node] = {};
+        stiffness[node] = 0.0;
+      });
+    });
+  }
+}
+
 void OneSided::commit(double) {
   for (Pass& pass : pass_) pass.commit();
   for (std::size_t k = 0; k < 2; ++k) {

@@ -19,6 +19,7 @@ class OneSided final : public InterfaceModel {
   void set_executor(Executor executor) override;
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
+  void clear(std::span<Vec3> force, std::span<double> stiffness) const override;
   void commit(double dt) override;
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
