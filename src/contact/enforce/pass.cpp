@@ -147,7 +147,8 @@ void Pass::search(const Side& held, const Side& surface, const Motion& motion) {
   surface_step_ = motion.surface;
 }
 
-bool Pass::asleep(const Scene& scene, Index i, FacetViews& facets) {
+bool Pass::asleep(const Scene& scene, Index i, FacetViews& facets, bool& near_by) {
+  near_by = false;
   const std::uint8_t quiet = quiet_[at(i)];
   if (quiet == awake || scene.host.dt <= 0.0) return false;
   // The largest motion of its block is at hand; its own has to be fetched.
@@ -159,7 +160,8 @@ bool Pass::asleep(const Scene& scene, Index i, FacetViews& facets) {
   }
   if (quiet == nothing_listed && !candidates_.of(i).empty()) return false;
   if (clears(motion, due)) return true;
-  return far(scene, i, quiet == seen_in_front, facets);
+  near_by = !far(scene, i, quiet == seen_in_front, facets);
+  return !near_by;
 }
 
 bool Pass::block_asleep(const Scene& scene, std::size_t number) const {
@@ -180,10 +182,10 @@ void Pass::settle_block(std::size_t number) {
   block_due_[number] = due;
 }
 
-void Pass::measure(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums) {
+void Pass::measure(const Scene& scene, Index i, bool near_by, Touch& touch, Work& work, GroupSums& sums) {
   states_.after(i) = states_.before(i);
   if (closest()) {
-    measure_closest(scene, i, touch, work, sums);
+    measure_closest(scene, i, near_by, touch, work, sums);
   } else {
     measure_plain(scene.held, scene.surface, i, touch);
   }
@@ -222,7 +224,8 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
         i += block - 1;
         continue;
       }
-      if (asleep(scene, i, work.facets)) continue;
+      bool near_by;
+      if (asleep(scene, i, work.facets, near_by)) continue;
       loan.wake(i);
       lane[count] = none;
       if (batches && may_be_ordinary(scene, i)) {
@@ -230,7 +233,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
         put_in(scene, i, batch);
       } else {
         Touch& touch = *(touch_of[count] = next++);
-        measure(scene, i, touch, work, sums);
+        measure(scene, i, near_by, touch, work, sums);
         any = any || touch.contact;
       }
       nodes[count++] = i;
@@ -241,7 +244,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
       if (ordinary && alone(scene, batch, lane[k], nodes[k], sums)) continue;
       Touch& touch = *(touch_of[k] = next++);
-      measure(scene, nodes[k], touch, work, sums);
+      measure(scene, nodes[k], true, touch, work, sums);  // it is held
       any = any || touch.contact;
       const bool same = ordinary && touch.contact && touch.facet == states_.before(nodes[k]).facet && touch.further == 0;
       if (!same) lane[k] = none;

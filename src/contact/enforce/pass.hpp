@@ -98,13 +98,21 @@ class Pass {
     bool acts = false;
     std::array<Vec3, 4> on_facet{};  ///< its share
   };
-  // What a node does to the corners of its facet; added in the order of the nodes when all are measured.
+  // What a node does to the corners of its facet; added in the order of the nodes when all are measured. Whoever makes one writes all of
+  // it, where it is kept: zeros and copies of what was just written take longer than the rest.
   struct Reaction {
-    Index facet = no_index;
-    double stiffness = 0.0;
-    std::array<double, 4> weight{};
-    std::array<Vec3, 4> normal{};
-    Vec3 tangential;
+    struct Part {
+      double x, y, z;
+      Part& operator=(const Vec3& a) { return x = a.x, y = a.y, z = a.z, *this; }
+      operator Vec3() const { return {x, y, z}; }  // NOLINT: a vector like any other
+    };
+    Index facet;
+    double stiffness;
+    std::array<double, 4> weight;
+    std::array<Part, 4> normal;
+    Part tangential;
+
+    Reaction(Index f, double k, const std::array<double, 4>& w) : facet(f), stiffness(k), weight(w) {}  // NOLINT
   };
   // Results of `group` consecutive nodes, which one thread handles.
   struct GroupSums {
@@ -206,7 +214,8 @@ class Pass {
   [[nodiscard]] double full_gap(const Side& held, const Side& surface, Index i, Index facet, const std::array<double, 4>& weight) const;
   [[nodiscard]] NormalLaw law_of(double full_gap) const { return {options_.rules.law == Law::stiffening ? full_gap : 0.0}; }
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
-  void measure_closest(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums);
+  /// @param near_by  far() was asked in this step, and said no
+  void measure_closest(const Scene& scene, Index i, bool near_by, Touch& touch, Work& work, GroupSums& sums);
   /// Adds the facets that are as near as the one in `touch`, and those that store more (pair.hpp).
   /// @param by  what the nearest one, m, was looked for with
   void look_further(const Side& held, const Side& surface, const Measure& m, Index i, const HeldBy& by, double strip, bool was_held,
@@ -246,8 +255,11 @@ class Pass {
   /// True while the node cannot touch, now or in the coming step.
   /// @param seen  it remembers that it was seen in front, and no initial penetration: it has nothing to remember from coming near
   [[nodiscard]] bool far(const Scene& scene, Index i, bool seen, FacetViews& facets);
+  /// Measures the heights over planes at free borders (Candidates::border_due).
+  void look_at_borders(const Side& surface, Index i, const Vec3& x, FacetViews& facets);
   /// Quiet, and still without anything to say.
-  [[nodiscard]] bool asleep(const Scene& scene, Index i, FacetViews& facets);
+  /// @param near_by  it is not, because far() said so
+  [[nodiscard]] bool asleep(const Scene& scene, Index i, FacetViews& facets, bool& near_by);
   /// The same of all nodes of a block at once, or false.
   [[nodiscard]] bool block_asleep(const Scene& scene, std::size_t number) const;
   void settle_block(std::size_t number);
@@ -276,7 +288,7 @@ class Pass {
     return passed_over * std::min(smallest_depth_, due - candidates_.clock() - largest_gap_) - surface_step_;
   }
   void evaluate_group(const Scene& scene, std::size_t number, Work& work, GroupSums& sums);
-  void measure(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums);
+  void measure(const Scene& scene, Index i, bool near_by, Touch& touch, Work& work, GroupSums& sums);
   void end_contact(const Scene& scene, Index i, const Touch& touch, bool any, GroupSums& sums);
   /// True where every ordinary held node goes through held_kernel().
   [[nodiscard]] bool in_batches(const HostState& host) const;

@@ -21,6 +21,14 @@ bool Pass::near(const HostState& host, const Side& held, const SideLoads& held_l
   return distance <= reach() && !clears(squared_motion(host, held, held_loads, i), rounding * distance + candidates_.clock());
 }
 
+void Pass::look_at_borders(const Side& surface, Index i, const Vec3& x, FacetViews& facets) {
+  double lowest = 1e300;
+  for (const Candidates::Entry& entry : candidates_.of(i)) {
+    if (entry.border) lowest = std::min(lowest, facets.plane(surface, entry.facet).height(x));
+  }
+  candidates_.set_border_due(i, lowest + candidates_.clock());
+}
+
 bool Pass::far(const Scene& scene, Index i, bool seen, FacetViews& facets) {
   const HostState& host = scene.host;
   const Side& surface = scene.surface;
@@ -49,12 +57,19 @@ bool Pass::far(const Scene& scene, Index i, bool seen, FacetViews& facets) {
   };
   // At a free border: not around it, for it stays in front of the plane, be it within the gap; and not near the strip, or else not at its
   // end, where nothing is in front.
+  bool over_borders = candidates_.border_due(i) + largest_gap_ > clears_from;
+  if (!over_borders) {
+    look_at_borders(surface, i, x, facets);
+    over_borders = candidates_.border_due(i) + largest_gap_ > clears_from;
+  }
   const auto clear_of_border = [&](Candidates::Entry& entry) {
     constexpr double beyond_strips = 2.0, around = 3.0;
-    const double above = facets.plane(surface, entry.facet).height(x) + largest_gap_;
-    if (!(above + clock > clears_from)) {
-      serves = false;
-      if (!passes(entry.facet, above, around)) return false;
+    if (!over_borders) {
+      const double above = facets.plane(surface, entry.facet).height(x) + largest_gap_;
+      if (!(above + clock > clears_from)) {
+        serves = false;
+        if (!passes(entry.facet, above, around)) return false;
+      }
     }
     if (entry.due > clears_from) return true;
     const Patch patch = surface.patch(entry.facet);
@@ -70,15 +85,18 @@ bool Pass::far(const Scene& scene, Index i, bool seen, FacetViews& facets) {
     if (!(entry.border ? clear_of_border(entry) : clear_of_face(entry))) return false;
   }
   if (!serves) return true;
+  // What limits is looked at again: in front of facets, then over the planes at borders.
+  const std::span<Candidates::Entry> listed = candidates_.of(i);
   double due = 1e300;
-  for (Candidates::Entry& entry : candidates_.of(i)) {
-    const double by_plane = facets.plane(surface, entry.facet).height(x) + clock;
-    if (entry.border) {
-      due = std::min({due, static_cast<double>(entry.due), by_plane + largest_gap_});
-    } else {
-      entry.due = std::max<double>(entry.due, by_plane);
-      due = std::min<double>(due, entry.due);
-    }
+  for (bool raised = !listed.empty(); raised;) {
+    Candidates::Entry& first = *std::min_element(listed.begin(), listed.end(), [](const auto& a, const auto& b) { return a.due < b.due; });
+    due = first.due;
+    if (!first.border) first.due = std::max<double>(due, facets.plane(surface, first.facet).height(x) + clock);
+    raised = first.due > due;
+  }
+  if (candidates_.border_due(i) + largest_gap_ < due) {
+    look_at_borders(surface, i, x, facets);
+    due = std::min(due, candidates_.border_due(i) + largest_gap_);
   }
   candidates_.set_nearest_due(i, due);
   return true;

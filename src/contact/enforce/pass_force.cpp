@@ -134,9 +134,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
   const double grown = growth(before);
   const double closing = -motion.rate + (grown > 0.0 && host.dt > 0.0 ? grown / host.dt : 0.0);
-  Reaction reaction;
-  reaction.facet = touch.facet;
-  reaction.weight = touch.weight;
+  double step_stiffness = 0.0;
 
   // Stiffness for the coming step, also where contact may begin in it.
   if (rules.limits_step) {
@@ -162,13 +160,13 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       for (const double w : touch.weight) spread += std::abs(w);
       tangent *= 0.5 * (1.0 + spread);
       held_loads.load(i).own_stiffness += tangent;
-      reaction.stiffness = tangent;
+      step_stiffness = tangent;
     }
     if (touch.pair_open && !touch.contact && after.ignored == 0) {
       const double tangent = strip_ahead(host, held, surface, i, touch, motion);
       if (tangent > 0.0) {
         held_loads.load(i).own_stiffness += tangent;
-        reaction.stiffness = std::max(reaction.stiffness, tangent);
+        step_stiffness = std::max(step_stiffness, tangent);
       }
     }
     if (touch.law.stiffens() && closing > 0.0) {
@@ -196,7 +194,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
 
   if (!touch.contact) {  // history of a contact that ends: closed by the caller
-    if (reaction.stiffness > 0.0) sums.reactions.push_back(reaction);
+    if (step_stiffness > 0.0) {
+      Reaction& reaction = sums.reactions.emplace_back(touch.facet, step_stiffness, touch.weight);
+      reaction.normal.fill({});
+      reaction.tangential = Vec3{};
+    }
     return;
   }
   totals.in_contact += 1;
@@ -274,7 +276,6 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   totals.potential += stored;
   double normal_force = factor * touch.pair.magnitude;
   Vec3 on_node = factor * touch.pair.on_node;
-  for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] = factor * touch.pair.on_facet[k];
   totals.started += 0.5 * (before.force + normal_force) * grown;
   after.force = normal_force;
   after.push = on_node;
@@ -295,7 +296,6 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     after.damping = std::max(-c * motion.rate, -normal_force);
     totals.damped += std::max(0.0, -0.5 * (before.damping + after.damping) * motion.rate * host.dt);
     on_node += after.damping * touch.normal;
-    for (std::size_t k = 0; k < 4; ++k) reaction.normal[k] -= (share * touch.weight[k] * after.damping) * touch.normal;
   }
   held_loads.load(i).own_normal = on_node;
   totals.normal += on_node;
@@ -308,6 +308,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   after.acceleration = (normal_force + after.damping) * inverse_mass;
   normal_force += after.damping;
 
+  Vec3 tangential;  // on the surface
   if (options_.rubs() && rub) {
     // The force that settles an account may pull a little: nothing rubs then.
     const double pressing = std::max(normal_force, 0.0);
@@ -324,19 +325,20 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
                                 : rub_by_return_mapping(host, surface, touch, motion, limit, fraction, before, after, totals);
     slips_[at(i)] = norm(on_surface) >= (1.0 - 1e-9) * limit ? 1 : 0;
     held_loads.load(i).own_tangential = -on_surface;
-    reaction.tangential = share * on_surface;
+    tangential = share * on_surface;
     totals.tangential -= on_surface;
   }
-  sums.reactions.push_back(reaction);
+  const auto add = [&](Index facet, const std::array<double, 4>& weight, const std::array<Vec3, 4>& force, bool equal) {
+    Reaction& reaction = sums.reactions.emplace_back(facet, step_stiffness, weight);
+    for (std::size_t c = 0; c < 4; ++c) {
+      reaction.normal[c] = equal ? factor * force[c] - (share * weight[c] * after.damping) * touch.normal : factor * force[c];
+    }
+    reaction.tangential = equal ? tangential : Vec3{};
+  };
+  add(touch.facet, touch.weight, touch.pair.on_facet, true);
   for (std::size_t k = touch.first_further; k < touch.first_further + touch.further; ++k) {
     const Further& one = sums.further[k];
-    if (!one.acts) continue;
-    Reaction more{one.measure.facet, reaction.stiffness, one.measure.closest.weight, {}, one.equal ? reaction.tangential : Vec3{}};
-    for (std::size_t c = 0; c < 4; ++c) {
-      more.normal[c] = factor * one.on_facet[c];
-      if (one.equal) more.normal[c] -= (share * more.weight[c] * after.damping) * touch.normal;
-    }
-    sums.reactions.push_back(more);
+    if (one.acts) add(one.measure.facet, one.measure.closest.weight, one.on_facet, one.equal);
   }
 }
 

@@ -158,11 +158,9 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   totals.potential += batch.potential[k];
   totals.stepped += batch.stepped[k];
 
-  Reaction reaction{before.facet, batch.step_stiffness[k], {}, {}, {}};
-  for (std::size_t c = 0; c < 4; ++c) {
-    reaction.weight[c] = batch.weight[c][k];
-    reaction.normal[c] = get(batch.on_corner[c]);
-  }
+  const std::array<double, 4> weight{batch.weight[0][k], batch.weight[1][k], batch.weight[2][k], batch.weight[3][k]};
+  Reaction& reaction = sums.reactions.emplace_back(before.facet, batch.step_stiffness[k], weight);
+  for (std::size_t c = 0; c < 4; ++c) reaction.normal[c] = get(batch.on_corner[c]);
   const Vec3 on_node = get(batch.on_node);
   SideLoads::Node& load = loads.load(i);
   load.own_normal = on_node;
@@ -179,14 +177,14 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
     totals.tangential -= on_surface;
     after.friction = on_surface;
     after.anchored = 1;
-    after.anchor = {reaction.weight, before.facet};
+    after.anchor = {weight, before.facet};
     after.slip = get(batch.slip);
     after.slip_normal = get(batch.slip_normal);
     after.tangential_stiffness = batch.tangential_stiffness[k];
   } else {
     after = before;
+    reaction.tangential = Vec3{};
   }
-  sums.reactions.push_back(reaction);
   after.normal = get(batch.normal);
   after.rate = batch.rate[k];
   after.acceleration = batch.acceleration[k];
@@ -198,7 +196,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   after.made = batch.made[k];
   after.reckoned = before.reckoned;
   after.light = std::max(before.light, static_cast<std::uint8_t>(batch.light[k] != 0.0 ? 1 : 0));
-  after.last = before.reckoned != 0 ? SurfacePoint{reaction.weight, before.facet} : before.last;
+  after.last = before.reckoned != 0 ? SurfacePoint{weight, before.facet} : before.last;
   after.facet = before.facet;
   after.held = before.held;
   after.ignored = 0;

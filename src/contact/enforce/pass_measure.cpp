@@ -44,7 +44,7 @@ Index Pass::swept_facet(const Side& held, const Side& surface, const SideLoads& 
   return hit;
 }
 
-void Pass::measure_closest(const Scene& scene, Index i, Touch& touch, Work& work, GroupSums& sums) {
+void Pass::measure_closest(const Scene& scene, Index i, bool near_by, Touch& touch, Work& work, GroupSums& sums) {
   const HostState& host = scene.host;
   const Side &held = scene.held, &surface = scene.surface;
   const SideLoads &held_loads = scene.held_loads, &surface_loads = scene.surface_loads;
@@ -54,7 +54,7 @@ void Pass::measure_closest(const Scene& scene, Index i, Touch& touch, Work& work
   if (!held.node_active(i)) return;
   const Vec3 x = held.x()[at(i)];
   const bool was_held = before.held != 0 && before.facet != no_index && surface.active(before.facet);
-  if (in_front_[at(i)] != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
+  if (!near_by && in_front_[at(i)] != 0 && !was_held && before.ignored == 0 && host.dt > 0.0 && !candidates_.of(i).empty()) {
     if (far(scene, i, before.in_front != 0 && before.offset == 0.0, work.facets)) {
       touch.far = true;
       after.offset = 0.0;
@@ -70,11 +70,9 @@ void Pass::measure_closest(const Scene& scene, Index i, Touch& touch, Work& work
   const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;
   in_front_[at(i)] = in_front && !touch.widens ? 1 : 0;  // as a free node sees it: without the wider strips of held ones
   if (in_front && !was_held) {
-    double lowest = 1e300;  // over the planes of facets at free borders
-    for (const Candidates::Entry& entry : candidates_.of(i)) {
-      if (entry.border) lowest = std::min(lowest, work.facets.plane(surface, entry.facet).height(x));
-    }
-    candidates_.limit_nearest_due(i, lowest + largest_gap_ + candidates_.clock());
+    const double gap = largest_gap_;
+    if (candidates_.border_due(i) + gap < candidates_.nearest_due(i)) look_at_borders(surface, i, x, work.facets);
+    candidates_.limit_nearest_due(i, candidates_.border_due(i) + gap);
   }
   // Beyond their reach lists need not hold the nearest facet: what is said and remembered must not depend on how old they are.
   const double away = m.found() ? std::sqrt(m.closest.squared_distance) : 1e300;

@@ -86,6 +86,7 @@ void Candidates::make(const Side& held, const Side& surface, const std::function
   const std::size_t pieces = (nodes + piece - 1) / piece;
   first_.assign(nodes + 1, 0);
   nearest_.assign(nodes, 1e300);
+  border_.assign(nodes, 1e300);
   others_.assign(nodes, {});
   std::vector<std::vector<Entry>> lists(pieces);
   const auto make_lists = [&](std::size_t begin, std::size_t end) {
@@ -153,7 +154,7 @@ void Candidates::list(const Side& held, const Side& surface, Index first, std::s
     const Vec3& x = held.x()[node];
     const Index host = held.nodes()[node];
     const CoarseBounds box(box_of(k));
-    double nearest = 1e300;
+    double nearest = 1e300, border = 1e300;
     for (const Near& f : near) {
       if (!tree_.meets(f.facet, box)) continue;
       if (std::find(f.node.begin(), f.node.end(), host) != f.node.end()) continue;  // nobody touches a facet of its own
@@ -163,9 +164,11 @@ void Candidates::list(const Side& held, const Side& surface, Index first, std::s
       if (!f.border) away = std::max(away, over);
       if (away > within[k]) continue;
       entries.emplace_back(f.facet, true, f.border, away);  // the clock shows 0
-      nearest = std::min(nearest, f.border ? std::min(away, over) : away);
+      nearest = std::min(nearest, away);
+      if (f.border) border = std::min(border, over);
     }
-    nearest_[node] = nearest;
+    nearest_[node] = std::min(nearest, border);
+    border_[node] = border;
     first_[node + 1] = static_cast<Index>(entries.size() - before);
   }
 }

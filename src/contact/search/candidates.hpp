@@ -92,6 +92,9 @@ class Candidates {
   [[nodiscard]] double nearest_due(Index node) const { return nearest_[at(node)]; }
   void set_nearest_due(Index node, double due) { nearest_[at(node)] = due; }
   void limit_nearest_due(Index node, double due) { nearest_[at(node)] = std::min(nearest_due(node), due); }
+  /// The least height of the node over the planes of listed facets at free borders, + the clock when it was measured; 1e300: none listed.
+  [[nodiscard]] double border_due(Index node) const { return border_[at(node)]; }
+  void set_border_due(Index node, double due) { border_[at(node)] = due; }
   /// Of all active facets in the node's list but `facet`, the nearest one: when the first of them is due.
   struct Others {
     Index facet = no_index;  ///< no_index: unknown
@@ -119,7 +122,7 @@ class Candidates {
   BoxTree tree_;
   std::vector<Index> first_;
   std::vector<Entry> entries_;
-  std::vector<Due> nearest_;
+  std::vector<Due> nearest_, border_;
   std::vector<Entry> others_;           ///< facet + 1
   Positions held_then_, surface_then_;  ///< when the lists were made
   Vec3 shift_;                          ///< mean motion of the surface since then
