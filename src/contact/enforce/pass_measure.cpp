@@ -10,7 +10,8 @@
 namespace abut::contact {
 namespace {
 
-constexpr double never = 1e300;  // offset of a node that is ignored
+constexpr double never = 1e300;          // offset of a node that is ignored
+constexpr double rounding = 1.0 + 1e-9;  // of the clock's sums
 
 Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   Patch patch = side.patch(f);
@@ -277,17 +278,26 @@ double Pass::opening_of(const Side& held, const Side& surface, Index i) const {
     return m.distance - (seen_gap_.empty() ? options_.gap : seen_gap_[at(i)]);
   }
   if (!candidates_.made()) return none;
-  ClosestPoint nearest;
-  Index facet = no_index;
-  for (const Candidates::Entry& entry : candidates_.of(i)) {
-    if (!surface.active(entry.facet)) continue;
-    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
-    if (facet != no_index && !(other.squared_distance < nearest.squared_distance)) continue;
-    nearest = other;
-    facet = entry.facet;
+  // The likely answer first; what the lists know of the others leaves most of them out.
+  const std::span<const Candidates::Entry> entries = candidates_.of(i);
+  const Candidates::Entry* first = nullptr;
+  for (const Candidates::Entry& entry : entries) {
+    if (surface.active(entry.facet) && (first == nullptr || entry.due < first->due)) first = &entry;
   }
-  if (facet == no_index || nearest.beyond) return none;
-  const Measure m = signed_measure(surface, facet, nearest, x);
+  if (first == nullptr) return none;
+  const Candidates::Entry* best = first;
+  ClosestPoint nearest = closest_point(surface.patch(first->facet), x);
+  for (const Candidates::Entry& entry : entries) {
+    if (&entry == first || !surface.active(entry.facet)) continue;
+    if (entry.due - candidates_.clock() > rounding * std::sqrt(nearest.squared_distance)) continue;
+    const ClosestPoint other = closest_point(surface.patch(entry.facet), x);
+    const bool nearer = other.squared_distance < nearest.squared_distance;
+    if (!nearer && !(other.squared_distance == nearest.squared_distance && &entry < best)) continue;
+    nearest = other;
+    best = &entry;
+  }
+  if (nearest.beyond) return none;
+  const Measure m = signed_measure(surface, best->facet, nearest, x);
   Looks looks(surface, x);
   return m.distance - outer_gap(held, surface, i, m, {}, border_strip, false, looks).gap;
 }
