@@ -57,10 +57,16 @@ std::vector<std::array<float, 3>> moved(std::span<const Index> nodes, std::span<
   return out;
 }
 
+void take(const std::array<double, 2>& fraction, InterfaceResult& result) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!std::isnan(fraction[k])) result.facing[k] = fraction[k];
+  }
+}
+
 }  // namespace
 
-ContactFacing::ContactFacing(const model::Model& model)
-    : time_between_(model.controls.t_end / looks), model_(&model), interfaces_(model.interfaces.size()) {
+ContactFacing::ContactFacing(const model::Model& model, const init::FacingShares& at_start)
+    : time_between_(model.controls.t_end / looks), model_(&model), interfaces_(model.interfaces.size()), at_start_(at_start) {
   const std::span<const Vec3> x(model.node_x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     const model::Interface& card = model.interfaces[i];
@@ -83,8 +89,13 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
     w.cycle = state.times.cycle;
     w.time = state.times.t;
     if (w.looked && decided && !has_moved(w.nodes, w.seen, model_->node_x, x, w.limit)) continue;
-    w.looked = true;
     w.seen = moved(w.nodes, model_->node_x, x);
+    const bool known = !w.looked && !at_start_.empty() && w.seen.empty() && results[i].in_contact == 0;
+    w.looked = true;
+    if (known) {
+      take(at_start_[i], results[i]);
+      continue;
+    }
     const init::InspectedInterface geometry(*model_, model_->interfaces[i], model_->node_x);
     contact::InspectionInput input = geometry.input(x);
     std::array<std::vector<std::int8_t>, 2> outward;
@@ -97,10 +108,7 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
       }
     }
     const std::array<contact::Facing, 2> facing = w.watch.look(input);
-    for (std::size_t k = 0; k < 2; ++k) {
-      const double fraction = facing[k].fraction();
-      if (!std::isnan(fraction)) results[i].facing[k] = fraction;
-    }
+    take({facing[0].fraction(), facing[1].fraction()}, results[i]);
   }
 }
 

@@ -23,7 +23,8 @@ class ContactFacing {
   static constexpr double looks = 100.0;
 
   ContactFacing() = default;
-  explicit ContactFacing(const model::Model& model);
+  /// @param at_start  what the first look would say where the model has its nodes and nothing touches; empty: not known
+  ContactFacing(const model::Model& model, const init::FacingShares& at_start);
   /// Brings InterfaceResult::facing of all interfaces up to date where a look is due. While nodes touch, surfaces that have passed each
   /// other by less than half a facet count as undecided there, not as turned.
   void look(const state::State& state, std::span<InterfaceResult> results);
@@ -42,6 +43,7 @@ class ContactFacing {
   double time_between_ = 0.0;
   const model::Model* model_ = nullptr;
   std::vector<Watched> interfaces_;
+  init::FacingShares at_start_;
 };
 
 }  // namespace abut::cycle

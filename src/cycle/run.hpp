@@ -8,6 +8,7 @@
 
 #include "core/profile.hpp"
 #include "cycle/sink.hpp"
+#include "init/contact_inspection.hpp"
 #include "init/contact_options.hpp"
 #include "model/model.hpp"
 
@@ -30,6 +31,7 @@ struct RunOptions {
   std::vector<ContactRecording> recordings;  ///< call logs to be written
   bool interfaces = true;                    ///< false: as if the model had none (inspection before a run)
   int hash_every = 0;                        ///< cycles between state hashes, 0 = none
+  init::FacingShares facing;                 ///< as the inspection found them where the model has its nodes; empty: not known
   std::vector<PhaseTime>* phases = nullptr;  ///< run() appends the phases here before the sink's end()
 };
 

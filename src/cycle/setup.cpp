@@ -56,7 +56,7 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
       if (model.interfaces[static_cast<std::size_t>(i.model_index)].idel == 0) release(side.nodes);
     }
   }
-  if (options.interfaces) contact_facing_ = ContactFacing(model);
+  if (options.interfaces) contact_facing_ = ContactFacing(model, options.facing);
 
   std::vector<std::uint8_t> free_translation(n, 1);
   std::vector<std::uint8_t> free_rotation(n, 1);

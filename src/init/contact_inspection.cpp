@@ -252,7 +252,8 @@ contact::InspectionInput InspectedInterface::input(std::span<const Vec3> x) cons
   return in;
 }
 
-std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state, const InterfaceChoices& choices) {
+std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state, const InterfaceChoices& choices,
+                                             FacingShares* facing) {
   std::vector<ContactFinding> out;
   if (model.interfaces.empty()) return out;
   const std::span<const Vec3> x = state.x.empty() ? std::span<const Vec3>(model.node_x) : state.x;
@@ -282,7 +283,9 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
     input.v = state.v;
     input.mass = state.mass;
     input.element_step = state.element_step;
-    std::vector<contact::Finding> findings = contact::inspect(input);
+    std::array<contact::Facing, 2> sides;
+    std::vector<contact::Finding> findings = contact::inspect(input, {}, facing != nullptr ? &sides : nullptr);
+    if (facing != nullptr) facing->push_back({sides[0].fraction(), sides[1].fraction()});
     const std::vector<ContactNode> nodes = contact_nodes(input, x);
     kinematic_findings(model, held, nodes, x, in_body, findings);
     follow_card(card, input.gap, findings);

@@ -25,9 +25,13 @@ struct InspectedState {
   double element_step = 0.0;     ///< without interfaces
 };
 
+/// Of every interface of a model the share of each surface that faces the other one; NaN: not decided, or TYPE7.
+using FacingShares = std::vector<std::array<double, 2>>;
+
 /// All interfaces, in the order of the model.
+/// @param facing  not null: what was found on the way, #interfaces
 [[nodiscard]] std::vector<ContactFinding> inspect_contacts(const model::Model& model, const InspectedState& state,
-                                                           const InterfaceChoices& choices = {});
+                                                           const InterfaceChoices& choices = {}, FacingShares* facing = nullptr);
 
 /// One line for people: what, the first 20 ids, what to do, the code.
 [[nodiscard]] Diagnostic to_diagnostic(const ContactFinding& finding);

@@ -39,7 +39,7 @@ Inspection Model::inspect(const Choices& choices, bool with_step) const {
   return run::inspect(run::projected(*this, choices).impl().model, choices, with_step);
 }
 
-Inspection run::inspect(const model::Model& model, const Choices& choices, bool with_step) {
+Inspection run::inspect(const model::Model& model, const Choices& choices, bool with_step, init::FacingShares* facing) {
   const cycle::RunOptions options = run::options_of(choices, 1);
   Inspection out;
   out.part_mass.assign(model.parts.size(), 0.0);
@@ -49,7 +49,9 @@ Inspection run::inspect(const model::Model& model, const Choices& choices, bool 
     bare.interfaces = false;
     cycle::Cycle(model, bare).advance(first);
   }
-  out.contact = init::inspect_contacts(model, {first.x, first.v, first.mass, first.step}, choices.interfaces);
+  // Choices may change the gap, which a run does not look at the normals with.
+  if (!choices.interfaces.empty() || first.x != model.node_x) facing = nullptr;
+  out.contact = init::inspect_contacts(model, {first.x, first.v, first.mass, first.step}, choices.interfaces, facing);
   const auto is_error = [](const ContactFinding& c) { return c.finding.severity == contact::Severity::error; };
   // Interfaces with errors may refuse to be built.
   if (with_step && std::none_of(out.contact.begin(), out.contact.end(), is_error)) {

@@ -49,7 +49,8 @@ void check_choices(const model::Model& model, const Choices& choices);
 /// The model with nodes moved out of initial penetrations where a choice is initial=project; the same model where none is.
 [[nodiscard]] Model projected(const Model& model, const Choices& choices);
 /// Model::inspect() of a model whose nodes are where the choices want them.
-[[nodiscard]] Inspection inspect(const model::Model& model, const Choices& choices, bool with_step);
+/// @param facing  not null: how the surfaces face each other where the model has them; empty where a run may see them otherwise
+[[nodiscard]] Inspection inspect(const model::Model& model, const Choices& choices, bool with_step, init::FacingShares* facing = nullptr);
 /// Options of the mechanics for these choices.
 [[nodiscard]] cycle::RunOptions options_of(const Choices& choices, int threads);
 

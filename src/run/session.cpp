@@ -67,7 +67,8 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
   model = run::projected(model, settings.choices);
   before.push_back({"read", model.impl().read_seconds});
   auto phase = Clock::now();
-  Inspection inspection = run::inspect(model.impl().model, settings.choices, false);
+  init::FacingShares facing;
+  Inspection inspection = run::inspect(model.impl().model, settings.choices, false, &facing);
   before.push_back({"inspect", seconds_since(phase)});
 
   Diagnostics findings;
@@ -88,6 +89,7 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
   phase = Clock::now();
   cycle::RunOptions options = run::options_of(settings.choices, settings.threads);
   options.hash_every = settings.hash_every;
+  options.facing = std::move(facing);
   call_logs_.resize(settings.recordings.size());
   for (std::size_t k = 0; k < settings.recordings.size(); ++k) {
     const ContactRecording& r = settings.recordings[k];

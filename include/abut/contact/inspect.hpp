@@ -83,11 +83,6 @@ struct InspectionLimits {
   double steps_through_gap = 5.0;  ///< steps that the fastest approach takes through the gap (T29)
 };
 
-/// Everything that can be said before the first step, worst first; findings of one severity in the order of the documentation.
-/// A host that has an Interface asks Interface::inspect().
-/// @pre indices lie inside x, see the head of this file
-[[nodiscard]] std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimits& limits = {});
-
 /// Does each facet look at the other side? The rule is in docs/findings/index.md ("The facing rule").
 struct Facing {
   std::vector<std::int8_t> facet;  ///< #F: +1 faces, -1 faces away, 0 nothing near, undecided or an overlap of solids
@@ -103,6 +98,13 @@ struct Facing {
 /// Both sides; a side without facets has an empty answer. O(F log F).
 /// @pre indices lie inside x, see the head of this file; velocities, masses and stiffnesses are not looked at
 [[nodiscard]] std::array<Facing, 2> facing(const InspectionInput& input);
+
+/// Everything that can be said before the first step, worst first; findings of one severity in the order of the documentation.
+/// A host that has an Interface asks Interface::inspect().
+/// @param facing  not null: facing() of the input too, which is found on the way (not with both_sides)
+/// @pre indices lie inside x, see the head of this file
+[[nodiscard]] std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimits& limits = {},
+                                           std::array<Facing, 2>* facing = nullptr);
 
 /// facing() of the same facets and nodes again and again, as they move: how they connect is found in the first look.
 class FacingWatch {

@@ -160,6 +160,11 @@ BothViews look(const std::array<Shape, 2>& shapes, double gap) {
   return out;
 }
 
+std::array<Facing, 2> BothViews::take_facing() {
+  for (Views& v : side) v.facing.distance = smallest;
+  return {std::move(side[0].facing), std::move(side[1].facing)};
+}
+
 BothViews look_unsigned(const std::array<Shape, 2>& shapes, std::span<const Vec3> x, double gap) {
   BothViews out = empty_views(shapes);
   if (shapes[0].count() == 0 || shapes[1].count() == 0) return out;
@@ -211,8 +216,7 @@ std::array<Facing, 2> FacingWatch::look(const InspectionInput& input) {
   }
   BothViews views = contact::look(known_->shapes, input.gap);
   for (Shape& shape : known_->shapes) shape.keep_connections();
-  for (Views& v : views.side) v.facing.distance = views.smallest;
-  return {std::move(views.side[0].facing), std::move(views.side[1].facing)};
+  return views.take_facing();
 }
 
 std::array<Facing, 2> facing(const InspectionInput& input) { return FacingWatch().look(input); }

@@ -21,6 +21,9 @@ struct BothViews {
   std::array<Views, 2> side;
   double reach = 0.0;       ///< distance within which facets count as near
   double smallest = 1e300;  ///< smallest distance of a facet's centre (a node) to the other side
+
+  /// Gives away what facing() says of both sides.
+  [[nodiscard]] std::array<Facing, 2> take_facing();
 };
 
 [[nodiscard]] BothViews look(const std::array<Shape, 2>& shapes, double gap);

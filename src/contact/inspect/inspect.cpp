@@ -34,9 +34,9 @@ std::string short_number(double value) {
   return text;
 }
 
-std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimits& limits) {
+std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimits& limits, std::array<Facing, 2>* facing) {
   const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
-  const BothViews views = input.both_sides ? look_unsigned(shapes, input.x, input.gap) : look(shapes, input.gap);
+  BothViews views = input.both_sides ? look_unsigned(shapes, input.x, input.gap) : look(shapes, input.gap);
   std::vector<Finding> out;
   const InspectionContext c{input, limits, shapes, views, out};
   find_topology(c);
@@ -48,6 +48,7 @@ std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimit
     if (a.severity != b.severity) return a.severity > b.severity;
     return rank(a) < rank(b);
   });
+  if (facing != nullptr && !input.both_sides) *facing = views.take_facing();
   return out;
 }
 

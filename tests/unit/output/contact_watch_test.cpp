@@ -46,7 +46,7 @@ class Watched : public testing::Test {
   /// Moves the upper plate's nodes to place(X, x of the middle of the node's strip, tau), tau from 0 to 1 over the run.
   const RunFindings& run(const std::function<Vec3(Vec3, double, double)>& place, int cycles = 6000) {
     ContactWatch watch(log_);
-    cycle::ContactFacing facing(scene_.model);
+    cycle::ContactFacing facing(scene_.model, {});
     facing.look(state_, interfaces_);
     cycle::Snapshot now;
     now.model = &scene_.model;
@@ -115,6 +115,47 @@ TEST_F(Watched, MotionsThatLeaveTheNormalsFacingAreNotReported) {
   EXPECT_TRUE(run([](Vec3 x, double, double tau) { return turned(x, 0.05 * std::sin(2.0 * std::numbers::pi * tau)); }).empty());
   interfaces_[0].in_contact = 1;
   EXPECT_TRUE(run([](Vec3 x, double, double tau) { return turned(x, std::numbers::pi * tau); }).empty());
+}
+
+// The inspection before the run has looked already: what it found stands for the first look, and no later one differs.
+TEST_F(Watched, WhatTheInspectionFoundStandsForTheFirstLook) {
+  init::FacingShares found;
+  (void)init::inspect_contacts(scene_.model, {}, {}, &found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], (std::array{1.0, 1.0}));
+  cycle::ContactFacing own(scene_.model, {}), told(scene_.model, found);
+  std::vector<cycle::InterfaceResult> by_own(1), by_told(1);
+  int turned_away = 0;
+  for (int n = 0; n <= 3000; ++n) {
+    const double tau = n / 3000.0;
+    for (const Index node : upper_) {
+      const auto i = static_cast<std::size_t>(node);
+      state_.x[i] = turned(scene_.model.node_x[i], std::numbers::pi * tau);
+    }
+    state_.times.t = tau * end;
+    state_.times.cycle = n;
+    own.look(state_, by_own);
+    told.look(state_, by_told);
+    ASSERT_EQ(by_own[0].facing, by_told[0].facing) << n;
+    turned_away += by_own[0].facing[1] < 0.5 ? 1 : 0;
+  }
+  EXPECT_GT(turned_away, 100);
+}
+
+// It is of the start, where nothing touches: anywhere else the run looks itself.
+TEST_F(Watched, WhatTheInspectionFoundIsOfTheStartOnly) {
+  const init::FacingShares wrong{{0.25, 0.125}};
+  const auto first_look = [&] {
+    cycle::ContactFacing facing(scene_.model, wrong);
+    facing.look(state_, interfaces_);
+    return interfaces_[0].facing;
+  };
+  EXPECT_EQ(first_look(), wrong[0]);
+  interfaces_[0].in_contact = 1;
+  EXPECT_EQ(first_look(), (std::array{1.0, 1.0}));
+  interfaces_[0].in_contact = 0;
+  state_.x[static_cast<std::size_t>(upper_[0])].z += 1e-3;
+  EXPECT_EQ(first_look(), (std::array{1.0, 1.0}));
 }
 
 /// Nodes that cross or get lost in different cycles are one finding: distinct nodes, from the first time on.
