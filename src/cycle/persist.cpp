@@ -88,7 +88,7 @@ void Cycle::persist(state::Archive& a) {
   if (a.loading()) bodies_revision_ = -1;  // the groups are told again which elements are rigid
   a.section("cycle", [&] {
     time_step_->persist(a);
-    a.fixed(std::span<double>(contact_stiffness_));  // shares the masses of rigid bodies among their nodes in the next cycle
+    a.fixed_or_zero(std::span<double>(contact_stiffness_));  // shares the masses of rigid bodies among their nodes in the next cycle
     ledger_.persist(a);
     persist_balance(a, balance_);
     persist_controller(a, controller_);

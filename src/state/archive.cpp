@@ -43,6 +43,15 @@ void Archive::plain(void* data, std::size_t size) {
   }
 }
 
+bool Archive::all_zero(std::span<const std::byte> bytes) {
+  constexpr std::size_t piece = 4096;
+  static constexpr std::array<std::byte, piece> zeros{};
+  for (std::size_t i = 0; i < bytes.size(); i += piece) {
+    if (std::memcmp(bytes.data() + i, zeros.data(), std::min(piece, bytes.size() - i)) != 0) return false;
+  }
+  return true;
+}
+
 void Archive::operator()(bool& flag) {
   std::uint8_t byte = flag ? 1 : 0;
   plain(&byte, 1);

@@ -6,6 +6,7 @@
 // are little-endian as in memory.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -65,6 +66,19 @@ class Archive {
   void fixed(std::vector<T>& values) {
     fixed(std::span<T>(values));
   }
+  /// The same of values that are often all zero: nothing more is written of them then.
+  template <class T>
+  void fixed_or_zero(std::span<T> values) {
+    static_assert(std::is_arithmetic_v<T> || std::is_same_v<T, Vec3>);
+    const bool zero = all_zero(std::as_bytes(values));
+    bool none = zero;
+    (*this)(none);
+    if (!none) {
+      fixed(values);
+    } else if (!zero) {
+      std::fill(values.begin(), values.end(), T{});
+    }
+  }
   /// Values whose number only the file knows.
   template <class T>
   void growing(std::vector<T>& values) {
@@ -95,6 +109,7 @@ class Archive {
 
  private:
   void plain(void* data, std::size_t size);
+  [[nodiscard]] static bool all_zero(std::span<const std::byte> bytes);
   void expect_count(std::size_t expected);
   [[nodiscard]] std::size_t count(std::size_t own, std::size_t least_bytes);
   [[nodiscard]] std::size_t open_section(std::string_view tag);

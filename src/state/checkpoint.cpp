@@ -23,6 +23,11 @@ struct Tail {
 };
 static_assert(sizeof(Head) == 16 && sizeof(Tail) == 16);
 
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
+  hash = (hash ^ word) * 0x100000001b3ULL;
+  return hash ^ hash >> 32;
+}
+
 template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
@@ -31,12 +36,31 @@ std::span<const std::byte> bytes_of(const T& value) {
 }  // namespace
 
 void Checksum::add(std::span<const std::byte> bytes) {
-  for (std::size_t i = 0; i < bytes.size(); i += sizeof hash_) {
+  constexpr std::size_t rows = 4, whole = rows * sizeof(std::uint64_t);
+  std::size_t i = 0;
+  const auto next = [&] {
+    const std::size_t size = std::min(sizeof(std::uint64_t), bytes.size() - i);
     std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-    hash_ = (hash_ ^ word) * 0x100000001b3ULL;
-    hash_ ^= hash_ >> 32;
+    std::memcpy(&word, bytes.data() + i, size);
+    row_[words_ % rows] = mixed(row_[words_ % rows], word);
+    ++words_;
+    i += size;
+  };
+  while (words_ % rows != 0 && i < bytes.size()) next();
+  std::array<std::uint64_t, rows> row = row_;
+  for (; i + whole <= bytes.size(); i += whole, words_ += rows) {
+    std::array<std::uint64_t, rows> word;
+    std::memcpy(word.data(), bytes.data() + i, whole);
+    for (std::size_t k = 0; k < rows; ++k) row[k] = mixed(row[k], word[k]);
   }
+  row_ = row;
+  while (i < bytes.size()) next();
+}
+
+std::uint64_t Checksum::value() const {
+  std::uint64_t sum = start;
+  for (const std::uint64_t row : row_) sum = mixed(sum, row);
+  return sum;
 }
 
 Sealer::Sealer(Out out) : out_(std::move(out)) {

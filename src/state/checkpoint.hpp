@@ -5,6 +5,7 @@
 // Length and checksum stand at the end, so that a content as large as the state is written as it comes and held nowhere.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,18 +13,21 @@
 
 namespace abut::state {
 
-/// Rises with every change of the frame. 1: the length stood before the content.
-inline constexpr std::uint32_t checkpoint_format = 2;
+/// Rises with every change of the frame. 1: the length stood before the content. 2: checksum of one row of words.
+inline constexpr std::uint32_t checkpoint_format = 3;
 
-/// FNV-1a over 64-bit words, the last one filled with zeros. Any single change of a word changes it.
+/// FNV-1a over 64-bit words, the last one filled with zeros: four rows of every fourth word, which need not wait for each other, and in the
+/// end over the four. Any single change of a word changes it.
 class Checksum {
  public:
   /// @param bytes  whole words, but for the last piece
   void add(std::span<const std::byte> bytes);
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
+  [[nodiscard]] std::uint64_t value() const;
 
  private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  static constexpr std::uint64_t start = 0xcbf29ce484222325ULL;
+  std::array<std::uint64_t, 4> row_{start, start, start, start};
+  std::size_t words_ = 0;
 };
 
 /// Frames a content on its way to `out`.

@@ -24,9 +24,9 @@ void State::persist(Archive& a) {
   a(times.h_bar_old);
   for (ZeroArray<Vec3>* array :
        {&x, &v, &w, &u, &this->a, &alpha, &f, &m, &f_internal, &m_internal, &f_external, &m_external, &f_contact}) {
-    a.fixed(std::span(*array));
+    a.fixed_or_zero(std::span(*array));
   }
-  for (ZeroArray<double>* array : {&mass, &inertia, &stiffness, &rotational_stiffness}) a.fixed(std::span(*array));
+  for (ZeroArray<double>* array : {&mass, &inertia, &stiffness, &rotational_stiffness}) a.fixed_or_zero(std::span(*array));
 }
 
 }  // namespace abut::state

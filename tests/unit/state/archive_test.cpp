@@ -200,6 +200,35 @@ TEST(Archive, FlagsAndPartsAreChecked) {
   EXPECT_EQ(read("flags", false), "the checkpoint is damaged (in part 'flags')");
 }
 
+/// Arrays of zeros take a byte; what only looks like zero is kept, and what was there before goes.
+TEST(Archive, ArraysOfZerosTakeNoRoom) {
+  constexpr std::size_t count = 3000;
+  const auto size_of = [](std::vector<double> values, std::vector<double>& back) {
+    Archive out;
+    out.fixed_or_zero(std::span(values));
+    const Bytes bytes(out.bytes().begin(), out.bytes().end());
+    Archive in{std::span<const std::byte>(bytes)};
+    in.fixed_or_zero(std::span(back));
+    in.finish();
+    return bytes.size();
+  };
+  const auto same = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  };
+  const std::vector<double> zeros(count, 0.0);
+  std::vector<double> back(count, 3.0);
+  EXPECT_LT(size_of(zeros, back), 16u);
+  EXPECT_TRUE(same(back, zeros));
+  for (const std::size_t at : {std::size_t{0}, std::size_t{511}, std::size_t{512}, count - 1}) {
+    for (const double value : {1.0, -0.0, std::numeric_limits<double>::denorm_min()}) {
+      std::vector<double> one = zeros;
+      one[at] = value;
+      EXPECT_GT(size_of(one, back), count * sizeof(double));
+      EXPECT_TRUE(same(back, one)) << at << " " << value;
+    }
+  }
+}
+
 /// A file with this content, handed over in pieces of some words.
 Bytes sealed(const Bytes& content, std::size_t piece) {
   Bytes file;
@@ -221,7 +250,8 @@ TEST(Checkpoint, ContentComesBackWhateverItsLengthAndPieces) {
   for (const std::size_t size : {0UL, 1UL, 7UL, 8UL, 9UL, 64UL, 1001UL}) {
     const Bytes content = counted(size), file = sealed(content, 8);
     EXPECT_EQ(file.size(), size + 32);
-    EXPECT_EQ(sealed(content, 64), file) << "the pieces leave no trace, " << size;
+    for (const std::size_t piece : {24UL, 40UL, 64UL, 1UL << 12})
+      EXPECT_EQ(sealed(content, piece), file) << "the pieces leave no trace, " << size;
     const auto back = unseal(file);
     EXPECT_TRUE(std::equal(back.begin(), back.end(), content.begin(), content.end())) << size;
   }
