@@ -125,8 +125,8 @@ class Interface {
   /// @param stiffness #N: contact stiffness is added (numerics.md 2.3 convention: h <= sqrt(2 m / K))
   /// @throws std::logic_error without a search in this step, std::invalid_argument when a span is too short for the interface's nodes
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness);
-  /// Sets to zero what the last evaluate() added to: for hosts that keep forces and stiffness of contact apart, and would else clear all
-  /// of their arrays in every step. After restore() it knows of nothing.
+  /// Sets to zero what the last evaluate() added to (of both_sides: at all of its nodes), for hosts that keep forces and stiffness of
+  /// contact apart and would else clear all of their arrays in every step. After restore() it knows of nothing.
   /// @param force, stiffness  those of that evaluate()
   /// @throws std::invalid_argument when one is too short
   void clear(std::span<Vec3> force, std::span<double> stiffness) const;

@@ -141,7 +141,8 @@ class Pass {
   // A node that comes nearer by less than this share of its way to the gap in a step is not looked at. What is said of others, that a
   // step may bring into contact, must not depend on how old the lists are: it is said of nodes that come nearer than that.
   static constexpr double passed_over = 0.4;
-  static constexpr double flight_share = 0.1;  // of a facet: nodes that fly further in a step look ahead on their own
+  static constexpr double rounding = 1.0 + 1e-9;  // of the clock's sums: nobody is near() whom far() passed over
+  static constexpr double flight_share = 0.1;     // of a facet: nodes that fly further in a step look ahead on their own
   static_assert(1.5 * step_growth * passed_over < 1.0 && 0.5 / passed_over > step_growth);
   // A node that nothing happened to: its two copies of the state agree, and it stays out of reach for a while.
   enum Quiet : std::uint8_t { awake, in_front, seen_in_front, nothing_listed, beyond_reach };
@@ -281,7 +282,7 @@ class Pass {
   /// A node that was beyond reach still is, and neither motion is one that the swept test or look_ahead() asks about.
   [[nodiscard]] bool stays_beyond(double squared_motion, double due) const {
     const double still = std::min(smallest_depth_ - surface_step_, (reach() - largest_gap_ - 2.0 * surface_step_) / (1.5 * step_growth));
-    return still > 0.0 && squared_motion < still * still && due - candidates_.clock() > (1.0 + 1e-9) * reach();
+    return still > 0.0 && squared_motion < still * still && due - candidates_.clock() > rounding * reach();
   }
   /// What the motion of a node in the last and in the coming step must stay below, when the nearest facet is due at `due`.
   [[nodiscard]] double clearance(double due) const {

@@ -5,11 +5,6 @@
 #include "contact/enforce/pass.hpp"
 
 namespace abut::contact {
-namespace {
-
-constexpr double rounding = 1.0 + 1e-9;  // of the clock: nobody is near() whom far() passed over
-
-}  // namespace
 
 double Pass::squared_motion(const HostState& host, const Side& held, const SideLoads& held_loads, Index i) const {
   const Vec3 coming = host.dt * host.v[at(held.nodes()[at(i)])] - mean_step_;

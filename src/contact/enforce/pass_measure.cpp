@@ -10,8 +10,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr double never = 1e300;          // offset of a node that is ignored
-constexpr double rounding = 1.0 + 1e-9;  // of the clock's sums
+constexpr double never = 1e300;  // offset of a node that is ignored
 
 Patch patch_at(const Side& side, std::span<const Vec3> x, Index f) {
   Patch patch = side.patch(f);
