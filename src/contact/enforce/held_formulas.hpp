@@ -70,11 +70,14 @@ ABUT_INLINE T minus_u_minus_log(T u) {
 /// A bilinear facet seen from the node, X = c + a s + b t + g s t, and the closest point on it.
 template <class T>
 struct Foot {
+  using Mask = decltype(T(0.0) < T(0.0));
   V<T> c, a, b, g;
   T s, t;
-  V<T> xs, xt, r;                    ///< tangents, node less contact point
-  T a11, a22, a12;                   ///< of the Hessian A
-  decltype(T(0.0) < T(0.0)) inside;  ///< found, the only minimum, and |s|, |t| < 1
+  V<T> xs, xt, r;           ///< tangents, node less contact point
+  T a11, a22, a12;          ///< of the Hessian A
+  T metric;                 ///< square of the shorter tangent at the middle
+  Mask found;               ///< the only minimum
+  Mask at_end_s, at_end_t;  ///< over an edge, both: over a corner
 
   [[gnu::always_inline]] inline void look() {
     xs = a + t * g;
@@ -86,8 +89,48 @@ struct Foot {
   }
 };
 
+/// The sides of a facet, or of what is open of it: |t|, |s| at sides 0 to 3.
 template <class T>
-ABUT_INLINE void project(Foot<T>& q, T reach) {
+struct Sides {
+  T low_t, high_s, high_t, low_s;
+};
+
+template <class T>
+ABUT_INLINE T within(T low, T value, T high) {
+  return simd::max(-low, simd::min(value, high));
+}
+
+/// The closest point of what lies between the sides, where that of the whole surface, which is known, does not.
+template <class T>
+ABUT_INLINE void move_to_sides(Foot<T>& q, const Sides<T>& sides) {
+  const T zero = T(0.0);
+  const auto out_s = (q.s >= sides.high_s) | (-q.s >= sides.low_s), out_t = (q.t >= sides.high_t) | (-q.t >= sides.low_t);
+  q.at_end_s = out_s;
+  q.at_end_t = out_t;
+  const auto out = out_s | out_t;
+  if (!simd::any(out)) return;
+  // Sides are straight: one step along each. Where both are left behind, the nearer of the two points.
+  const T end_s = within(sides.low_s, q.s, sides.high_s), end_t = within(sides.low_t, q.t, sides.high_t);
+  const V<T> along_t = q.b + end_s * q.g, from_s = q.c + end_s * q.a;
+  const V<T> along_s = q.a + end_t * q.g, from_t = q.c + end_t * q.b;
+  const T t_there = within(sides.low_t, -(dot(from_s, along_t) / dot(along_t, along_t)), sides.high_t);
+  const T s_there = within(sides.low_s, -(dot(from_t, along_s) / dot(along_s, along_s)), sides.high_s);
+  const V<T> way_s = from_s + t_there * along_t, way_t = from_t + s_there * along_s;
+  const auto by_s = out_s & ((!out_t) | (dot(way_s, way_s) <= dot(way_t, way_t)));
+  const auto by_t = out & (!by_s);
+  q.s = simd::select(by_s, end_s, simd::select(by_t, s_there, q.s));
+  q.t = simd::select(by_t, end_t, simd::select(by_s, t_there, q.t));
+  q.at_end_s = out & ((q.s >= sides.high_s) | (-q.s >= sides.low_s));
+  q.at_end_t = out & ((q.t >= sides.high_t) | (-q.t >= sides.low_t));
+  q.look();
+  // A minimum goes down outwards at every end that it lies at.
+  const T up_s = -dot(q.r, q.xs) * q.s, up_t = -dot(q.r, q.xt) * q.t;
+  q.found = q.found & ((!q.at_end_s) | (up_s <= zero)) & ((!q.at_end_t) | (up_t <= zero));
+}
+
+/// @param reach  square of the furthest |s|, |t| of the facet with its strips
+template <class T>
+ABUT_INLINE void project(Foot<T>& q, T reach, const Sides<T>& sides) {
   // With |g| at most half of the shorter tangent (`folds`) and tangents no flatter than `flattest`, Newton's steps go down as e' < 200 e^2:
   // after a step of 1e-8 less than 1e-13 is left.
   constexpr double last_step = 1e-8, flattest = 1e-2;
@@ -111,11 +154,13 @@ ABUT_INLINE void project(Foot<T>& q, T reach) {
     if (!simd::any((!done) & regular)) break;
   }
   q.look();
-  const T metric = simd::min(dot(q.a, q.a), dot(q.b, q.b)), twist = dot(q.g, q.g);
-  const auto folds = twist * reach > T(0.25) * metric;
-  const auto far = (twist > T(1e-8) * metric) & (dot(q.r, q.r) * twist > T(0.04) * (metric * metric));
-  const T furthest = simd::max(simd::abs(q.s), simd::abs(q.t));
-  q.inside = done & regular & (!folds) & (!far) & (furthest < one);
+  q.found = done & regular;
+  move_to_sides(q, sides);
+  q.metric = simd::min(dot(q.a, q.a), dot(q.b, q.b));
+  const T twist = dot(q.g, q.g);
+  const auto folds = twist * reach > T(0.25) * q.metric;
+  const auto far = (twist > T(1e-8) * q.metric) & (dot(q.r, q.r) * twist > T(0.04) * (q.metric * q.metric));
+  q.found = q.found & (!folds) & (!far);
 }
 
 /// One over a mass; 0 where there is none.
@@ -137,10 +182,19 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   q.a = quarter * ((corner[1] - corner[0]) + (corner[2] - corner[3]));
   q.b = quarter * ((corner[3] - corner[0]) + (corner[2] - corner[1]));
   q.g = quarter * ((corner[0] - corner[1]) + (corner[2] - corner[3]));
-  project(q, load<T>(b.reach + k));
-  auto ordinary = q.inside;
+  // A free border is no end: over the flat part of its strip a node is as over the inside.
+  const Sides<T> flat{load<T>(b.end[0] + k), load<T>(b.end[1] + k), load<T>(b.end[2] + k), load<T>(b.end[3] + k)};
+  const auto end = [one](T of_flat) { return simd::select(of_flat > one, T(1e30), one); };
+  project(q, load<T>(b.reach + k), {end(flat.low_t), end(flat.high_s), end(flat.high_t), end(flat.low_s)});
+  auto ordinary = q.found & (q.s <= flat.high_s) & (-q.s <= flat.low_s) & (q.t <= flat.high_t) & (-q.t <= flat.low_t);
   const V<T>&r = q.r, &xs = q.xs, &xt = q.xt;
-  const V<T> n = unit(cross(xs, xt));
+  V<T> n = unit(cross(xs, xt));
+  const auto at_end = q.at_end_s | q.at_end_t;
+  if (simd::any(at_end)) {
+    // In front, or the last normal says that it is not.
+    ordinary = ordinary & ((!at_end) | (dot(r, r) > T(1e-12) * q.metric));
+    n = select<T>(at_end, unit(r), n);
+  }
   const T d = dot(n, r);
   const T s0 = one - q.s, s1 = one + q.s, t0 = quarter * (one - q.t), t1 = quarter * (one + q.t);
   const T h[4] = {s0 * t0, s1 * t0, s1 * t1, s0 * t1};
@@ -184,7 +238,11 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   const T kt = slope * (quarter * (s0 * (k1[3] - k1[0]) + s1 * (k1[2] - k1[1])));
   const T det = q.a11 * q.a22 - q.a12 * q.a12;
   const T by = phi / det;
-  const T cs = by * (q.a22 * ks - q.a12 * kt), ct = by * (q.a11 * kt - q.a12 * ks);
+  T cs = by * (q.a22 * ks - q.a12 * kt), ct = by * (q.a11 * kt - q.a12 * ks);
+  if (simd::any(at_end)) {  // along the edge alone
+    cs = simd::select(q.at_end_s, zero, simd::select(q.at_end_t, phi * ks / q.a11, cs));
+    ct = simd::select(q.at_end_t, zero, simd::select(q.at_end_s, phi * kt / q.a22, ct));
+  }
   const V<T> sideways = cs * xs + ct * xt;
   const T force = kappa * slope_of_phi;
   const V<T> on_node = force * n - sideways;
@@ -255,7 +313,10 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     store(b.kinematic_step + k, T(1e30));
   }
   const T extra = simd::sqrt(dot(sideways, sideways)) * (slope_of_phi / phi);
-  store(b.step_stiffness + k, T(rules.step_factor) * (kappa * tangent + extra));
+  // Over a strip weights extrapolate.
+  const T spread = simd::select(simd::max(simd::abs(q.s), simd::abs(q.t)) > one,
+                                half * (one + ((simd::abs(h[0]) + simd::abs(h[1])) + (simd::abs(h[2]) + simd::abs(h[3])))), one);
+  store(b.step_stiffness + k, spread * (T(rules.step_factor) * (kappa * tangent + extra)));
 
   if (rules.rubs) {
     const T kt_now = T(rules.tangential_ratio) * kappa;

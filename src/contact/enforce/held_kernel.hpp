@@ -1,15 +1,17 @@
 // Held nodes in the ordinary case, some at a time: what Pass::measure_closest, pair_force, finish_node and rub_by_return_mapping do for a
-// node that stays over the inside of the quadrilateral that held it in the last step, in one go over a number type.
+// node that stays over the quadrilateral that held it in the last step, in one go over a number type.
 //
-//   projection   Newton on |x - X(s,t)|^2 from (0, 0), A ds = -grad, A_ab = X_a.X_b - r.X_ab       (closest_point.hpp)
-//   normal       d = n.r, P = gap - d, kappa = s K1(xi) K2/(K1 + K2), phi of law.hpp                  (pair.hpp)
+//   projection   Newton on |x - X(s,t)|^2 from (0, 0), A ds = -grad, A_ab = X_a.X_b - r.X_ab; from outside, along the sides
+//                (closest_point.hpp)
+//   normal       n that of the facet, in front of an edge or a corner r/|r|; d = n.r, P = gap - d, kappa = s K1(xi) K2/(K1 + K2), phi of
+//   law.hpp                  (pair.hpp)
 //                f = kappa phi' n - c^a X_a,  f_i = -H_i f - c^a H_i,a r,  c^a = phi A^-1_ab dkappa/dxi_b
 //   friction     trial e + dg, e' = min(1, L/(k_t |e + dg|)) (e + dg), e in the facet's frame       (friction.hpp)
 //
-// Inside a facet the taper is 1 and its gradient 0, so strips do not appear. A lane is `ordinary` when all that the formulas above
-// leave out is absent: |s|, |t| < 1, one minimum only, 0 < P, P below the bend of the law, no first or last force
-// (switching.hpp). That is a matter of positions, speeds and history alone: which nodes share a register, and how old search lists
-// are, never shows in a result. All other nodes go the general way.
+// On a facet, and over the flat part of the strips at its free borders, the taper is 1 and its gradient 0, so strips do not appear. A lane
+// is `ordinary` when all that the formulas above leave out is absent: one minimum only, not further out, not behind an edge, 0 < P, P below
+// the bend of the law, no first or last force (switching.hpp). That is a matter of positions, speeds and history alone: which nodes share a
+// register, and how old search lists are, never shows in a result. All other nodes go the general way.
 #pragma once
 
 #include <cstddef>
@@ -53,6 +55,7 @@ struct HeldBatch {
   double corner_stiffness[4][size];  ///< K1 at the corners
   double node_stiffness[size];       ///< K2
   double reach[size];                ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
+  double end[4][size];               ///< |t|, |s| at sides 0 to 3, up to where taper is 1: 1 at an edge, the end of a strip's flat part
   double rate_before[size], acceleration_before[size], normal_before[3][size];
   double anchor[4][size];  ///< weights of the last contact point
   // Account (account.hpp): the push of the last step, the contact point it acted at, what it held, what was made; 1 where it counts.

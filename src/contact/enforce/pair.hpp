@@ -27,6 +27,9 @@ inline constexpr double stronger_within = 0.25;
 /// Relative difference of energies that count as the same.
 inline constexpr double equally_strong = 1e-8;
 
+/// Points of two facets that are nearer to each other than this share of a facet's area (squares) are the same point.
+inline constexpr double same_point = 1e-12;
+
 struct PairForce {
   Vec3 on_node;
   std::array<Vec3, 4> on_facet;  ///< by corner; a triangle's fourth is zero

@@ -233,6 +233,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
         put_in(scene, i, batch);
       } else {
         Touch& touch = *(touch_of[count] = next++);
+        work.looks.begin(surface, held.x()[at(i)]);
         measure(scene, i, near_by, touch, work, sums);
         any = any || touch.contact;
       }
@@ -242,7 +243,8 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
     for (std::size_t k = 0; k < count && batch.count > 0; ++k) {
       if (lane[k] == none) continue;
       const bool ordinary = batch.ordinary[lane[k]] != 0.0;
-      if (ordinary && alone(scene, batch, lane[k], nodes[k], sums)) continue;
+      work.looks.begin(surface, held.x()[at(nodes[k])]);
+      if (ordinary && alone(scene, batch, lane[k], nodes[k], work.looks, sums)) continue;
       Touch& touch = *(touch_of[k] = next++);
       measure(scene, nodes[k], true, touch, work, sums);  // it is held
       any = any || touch.contact;

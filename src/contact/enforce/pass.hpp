@@ -137,6 +137,7 @@ class Pass {
     std::vector<Reaction> reactions;
     HeldBatch batch;
     FacetViews facets;
+    Looks looks;  ///< at the node in hand
   };
   // A node that comes nearer by less than this share of its way to the gap in a step is not looked at. What is said of others, that a
   // step may bring into contact, must not depend on how old the lists are: it is said of nodes that come nearer than that.
@@ -216,6 +217,7 @@ class Pass {
   [[nodiscard]] NormalLaw law_of(double full_gap) const { return {options_.rules.law == Law::stiffening ? full_gap : 0.0}; }
   [[nodiscard]] bool closest() const { return options_.rules.edges == Edges::closest; }
   /// @param near_by  far() was asked in this step, and said no
+  /// @param work     looks that have begun with this node
   void measure_closest(const Scene& scene, Index i, bool near_by, Touch& touch, Work& work, GroupSums& sums);
   /// Adds the facets that are as near as the one in `touch`, and those that store more (pair.hpp).
   /// @param by  what the nearest one, m, was looked for with
@@ -300,7 +302,7 @@ class Pass {
   void run_batch(const Scene& scene, HeldBatch& batch) const;
   void add_reactions(const GroupSums& sums, const Side& surface, SideLoads& surface_loads) const;
   /// No other facet can be as near as the one that holds the node, nor store more.
-  [[nodiscard]] bool alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
+  [[nodiscard]] bool alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, Looks& looks, GroupSums& sums);
   void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
   void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
                    GroupSums& sums);

@@ -79,7 +79,7 @@ void Pass::look_further(const Side& held, const Side& surface, const Measure& m,
   const auto gap_with = [&](double full) { return gap + (full - touch.full_gap); };
   each_beside(surface, i, x, m, by, strip, was_held, beyond, looks, [&](const Measure& its, bool as_near) {
     // The same point, seen from the facet across, is the same contact unless its strip fades elsewhere.
-    const bool same = squared_norm(its.closest.point - m.closest.point) < 1e-12 * size;
+    const bool same = squared_norm(its.closest.point - m.closest.point) < same_point * size;
     if (same && beyond <= 0.0) return;
     const double full = full_gap(held, surface, i, its.facet, its.closest.weight);
     const double its_gap = gap_with(full);

@@ -69,7 +69,10 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
     batch.last[c][k] = before.last.weight[c];
   }
   const double strip = before.held == 2 ? border_strip + border_widening : border_strip;
-  const double reach = surface.borders(before.facet) != 0 ? 1.0 + 2.0 * strip : 1.0;
+  const unsigned borders = surface.borders(before.facet);
+  const double reach = borders != 0 ? 1.0 + 2.0 * strip : 1.0;
+  constexpr double flat = 1.0 + 2.0 * border_flat * border_strip;  // s and t run over two per side
+  for (unsigned side = 0; side < 4; ++side) batch.end[side][k] = (borders >> side & 1U) != 0 ? flat : 1.0;
   batch.reach[k] = reach * reach;
   batch.rate_before[k] = before.rate;
   batch.acceleration_before[k] = before.acceleration;
@@ -107,7 +110,7 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
     for (auto& one : *four) repeat(one);
   }
   for (auto& one : batch.mass) repeat(one);
-  for (auto* four : {&batch.corner_stiffness, &batch.anchor, &batch.last}) {
+  for (auto* four : {&batch.corner_stiffness, &batch.anchor, &batch.last, &batch.end}) {
     for (auto& one : *four) repeat(one);
   }
   for (auto* one : {&batch.node_stiffness, &batch.reach, &batch.rate_before, &batch.acceleration_before, &batch.tangential_stiffness_before,
@@ -119,7 +122,7 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
   held_kernel()(held_rules(scene.host), batch);
 }
 
-bool Pass::alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {
+bool Pass::alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, Looks& looks, GroupSums& sums) {
   const Candidates::Others others = candidates_.others(i);
   const NodeState& before = states_.before(i);
   // Beyond what counts as equally near or can store more, with room for the rounding of the clock.
@@ -132,7 +135,12 @@ bool Pass::alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, 
   const bool wide = before.held == 2;
   if (others.facet == before.facet && (others.wide || !wide) && others.due - candidates_.clock() > within) return true;
   const HeldBy by{before.facet, before.normal, wide ? border_strip + border_widening : border_strip};
-  return none_within(scene.surface, candidates_, i, scene.held.x()[at(i)], by, within);
+  const Vec3& x = scene.held.x()[at(i)];
+  const auto k = static_cast<std::size_t>(lane);
+  HeldAt here{x - batch.distance[k] * Vec3{batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, batch.squared_distance[k]};
+  // As look_further() has it: the same point, seen from the facet across, is the same contact.
+  if (further <= 0.0) here.same = same_point * scene.surface.facet_area(before.facet);
+  return none_within(scene.surface, candidates_, i, x, by, within, here, looks);
 }
 
 void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums) {

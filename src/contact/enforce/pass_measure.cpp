@@ -64,7 +64,7 @@ void Pass::measure_closest(const Scene& scene, Index i, bool near_by, Touch& tou
   touch.widens = was_held && before.held == 2;
   const double strip = touch.widens ? border_strip + border_widening : border_strip;
   HeldBy by = was_held ? HeldBy{before.facet, before.normal, strip} : HeldBy{};
-  Looks looks(surface, x);
+  Looks& looks = work.looks;
   Measure m;
   if (was_held || !candidates_.of(i).empty()) m = nearest(surface, candidates_, i, x, by, looks);
   const bool in_front = m.found() && !m.closest.beyond && m.distance >= 0.0;

@@ -101,7 +101,9 @@ Measure nearest(const Side& surface, Candidates& candidates, Index node, const V
   return facet == no_index ? best : looks.measure(facet, held.strip);
 }
 
-bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance) {
+bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance,
+                 const HeldAt& at, Looks& looks) {
+  constexpr double rounding = 1e-10;  // of squared distances to one point of two facets
   const double clock = candidates.clock();
   const bool wide = held.strip > border_strip;
   Candidates::Others others{held.facet, true, 1e300};
@@ -111,8 +113,14 @@ bool none_within(const Side& surface, Candidates& candidates, Index node, const 
     if (entry.facet == held.facet || !surface.active(entry.facet)) continue;
     const bool borders = surface.borders(entry.facet) != 0;
     if ((wide && borders && !entry.wide) || !(entry.due - clock > distance)) {
-      const double bound = distance_at_least(extended(surface, entry.facet, held.strip), x);
-      if (!(bound > distance)) return false;
+      double bound = distance_at_least(extended(surface, entry.facet, held.strip), x);
+      if (!(bound > distance)) {
+        const ClosestPoint& closest = looks.closest(entry.facet, held.strip);
+        bound = std::sqrt(closest.squared_distance);
+        const bool shared = squared_norm(closest.point - at.point) < at.same && !closest.beyond &&
+                            closest.squared_distance >= (1.0 - rounding) * at.squared_distance;
+        if (!(bound > distance) && !shared) return false;
+      }
       entry.due = bound + clock;
       entry.wide = wide;
     }

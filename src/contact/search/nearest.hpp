@@ -33,7 +33,14 @@ struct Measure {
 /// What was found when a node was measured against facets: each of them is looked at once, however many questions are asked about it.
 class Looks {
  public:
-  Looks(const Side& surface, const Vec3& x) : surface_(surface), x_(x) {}
+  Looks() = default;  // NOLINT: what is not found yet has no value
+  Looks(const Side& surface, const Vec3& x) { begin(surface, x); }
+  /// Forgets all about the node before.
+  void begin(const Side& surface, const Vec3& x) {
+    surface_ = &surface;
+    x_ = x;
+    count_ = 0;
+  }
 
   [[nodiscard]] bool has(Index f, double strip) const { return find(f, strip) < places; }
   /// Closest point on facet f with strips as wide as this. Valid until the next call.
@@ -42,7 +49,7 @@ class Looks {
   [[nodiscard]] const Measure& measure(Index f, double strip) {
     Look& one = look(f, strip);
     if (!one.is_signed) {
-      one.measure = signed_measure(surface_, f, one.measure.closest, x_);
+      one.measure = signed_measure(*surface_, f, one.measure.closest, x_);
       one.is_signed = true;
     }
     return one.measure;
@@ -55,7 +62,7 @@ class Looks {
     bool is_signed;
   };
   static constexpr std::size_t places = 6;
-  const Side& surface_;
+  const Side* surface_ = nullptr;
   Vec3 x_;
   std::array<Look, places> look_;
   std::size_t count_ = 0;
@@ -71,7 +78,7 @@ class Looks {
     if (known < places) return look_[known];
     Look& one = look_[count_++ % places];
     one.measure.facet = f;
-    one.measure.closest = closest_point(extended(surface_, f, strip), x_);
+    one.measure.closest = closest_point(extended(*surface_, f, strip), x_);
     one.strip = strip;
     one.is_signed = false;
     return one;
@@ -95,9 +102,17 @@ struct HeldBy {
   return nearest(surface, candidates, node, x, held, looks);
 }
 
-/// No listed facet but the one that holds the node comes within `distance` of it, by bounds that go back into its list. False where bounds
-/// do not tell, or where that facet is not listed.
-[[nodiscard]] bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance);
+/// Where the facet that holds a node does so.
+struct HeldAt {
+  Vec3 point;
+  double squared_distance = 0.0;
+  double same = 0.0;  ///< square of the distance up to which a point of another facet, not nearer than this one, is the same point
+};
+
+/// No listed facet but the one that holds the node comes within `distance` of it at another point than `at`, by distances that go back into
+/// its list. False where that facet is not listed.
+[[nodiscard]] bool none_within(const Side& surface, Candidates& candidates, Index node, const Vec3& x, const HeldBy& held, double distance,
+                               const HeldAt& at, Looks& looks);
 
 /// It pushes in about the direction of `normal`.
 [[nodiscard]] inline bool pushes_alike(const Measure& m, const Vec3& normal) { return dot(m.normal, normal) > -0.5; }

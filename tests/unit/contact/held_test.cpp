@@ -17,6 +17,11 @@ namespace {
 
 using test::Host;
 
+/// Along which a node in front of a facet is held.
+Vec3 direction(const Patch& patch, const ClosestPoint& c, const Vec3& x) {
+  return c.feature == Feature::face ? normal_at(patch, c.s, c.t) : normalized(x - c.point);
+}
+
 /// Random nodes over random warped facets, all moving, with a history of friction.
 struct Lanes {
   std::vector<Vec3> held_x, surface_x, v;
@@ -36,7 +41,10 @@ struct Lanes {
       b.node[k] = b.node_v[k] = 3 * k;
       b.mass[4][k] = 1.0 + 0.5 * u(random);
       b.node_stiffness[k] = 2.0 + u(random);
-      b.reach[k] = 1.0;
+      // Every third facet has free borders; over the flat part of their strips a node is as over the inside.
+      const std::uint8_t sides = borders(k);
+      b.reach[k] = sides != 0 ? (1.0 + 2.0 * border_strip) * (1.0 + 2.0 * border_strip) : 1.0;
+      for (int side = 0; side < 4; ++side) b.end[side][k] = (sides >> side & 1) != 0 ? 1.0 + 2.0 * border_flat * border_strip : 1.0;
       b.rate_before[k] = u(random);
       b.acceleration_before[k] = u(random);
       b.tangential_stiffness_before[k] = 0.1;
@@ -64,10 +72,10 @@ struct Lanes {
         b.slip_before[c][k] = 0.1 * across[c];
       }
       // A few lanes' normals have turned too far for them to be ordinary.
-      const Patch facet{{corner(k, 0), corner(k, 1), corner(k, 2), corner(k, 3)}, false, 0, border_strip};
+      const Patch facet{{corner(k, 0), corner(k, 1), corner(k, 2), corner(k, 3)}, false, sides, border_strip};
       const ClosestPoint c = closest_point(facet, held_x.back());
       const double turned = k % 8 == 7 ? 0.1 : 0.01;
-      const Vec3 last = normalized(normal_at(facet, c.s, c.t) + turned * Vec3{u(random), u(random), u(random)});
+      const Vec3 last = normalized(direction(facet, c, held_x.back()) + turned * Vec3{u(random), u(random), u(random)});
       for (int i = 0; i < 3; ++i) b.normal_before[i][k] = last[i];
     }
     for (int k = 0; k < 4 * HeldBatch::size; ++k) v.push_back({u(random), u(random), u(random)});
@@ -75,6 +83,7 @@ struct Lanes {
     b.surface_x = &surface_x.data()->x;
     b.v = &v.data()->x;
   }
+  [[nodiscard]] static std::uint8_t borders(int k) { return k % 3 == 1 ? static_cast<std::uint8_t>(k % 15) : 0; }
   [[nodiscard]] Vec3 corner(int k, int c) const { return surface_x[static_cast<std::size_t>(4 * k + c)]; }
 };
 
@@ -157,6 +166,7 @@ TEST(HeldKernel, does_not_see_its_neighbours) {
       rotate(b.corner_stiffness[c]);
       rotate(b.anchor[c]);
       rotate(b.last[c]);
+      rotate(b.end[c]);
     }
     for (auto& mass : b.mass) rotate(mass);
     for (int c = 0; c < 3; ++c) {
@@ -174,7 +184,7 @@ TEST(HeldKernel, does_not_see_its_neighbours) {
 // Projection, weights and normal are those of closest_point(); forces of a node and its facet have no sum and no moment; friction is
 // that of slip().
 TEST(HeldKernel, is_the_general_way_to_rounding) {
-  int ordinary = 0, slides = 0;
+  int ordinary = 0, slides = 0, over_strips = 0, over_edges = 0, over_corners = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     const Lanes lanes(seed);
     held_kernel()(lanes.rules, *lanes.batch);
@@ -182,18 +192,24 @@ TEST(HeldKernel, is_the_general_way_to_rounding) {
     for (int k = 0; k < HeldBatch::size; ++k) {
       if (b.ordinary[k] == 0.0) continue;
       ++ordinary;
-      const Patch patch{{lanes.corner(k, 0), lanes.corner(k, 1), lanes.corner(k, 2), lanes.corner(k, 3)}, false, 0, border_strip};
+      const Patch patch{
+          {lanes.corner(k, 0), lanes.corner(k, 1), lanes.corner(k, 2), lanes.corner(k, 3)}, false, Lanes::borders(k), border_strip};
       const Vec3 x = lanes.held_x[static_cast<std::size_t>(k)];
       const ClosestPoint c = closest_point(patch, x);
-      ASSERT_EQ(c.feature, Feature::face);
+      over_edges += c.feature == Feature::edge ? 1 : 0;
+      over_corners += c.feature == Feature::corner ? 1 : 0;
+      ASSERT_FALSE(c.beyond);
+      ASSERT_EQ(taper(patch, c.s, c.t).value, 1.0);
+      const bool over_strip = std::max(std::abs(c.s), std::abs(c.t)) > 1.0;
+      over_strips += over_strip ? 1 : 0;
       EXPECT_NEAR(c.squared_distance, b.squared_distance[k], 1e-14);
-      const Vec3 n = normal_at(patch, c.s, c.t), r = x - c.point;
+      const Vec3 n = direction(patch, c, x), r = x - c.point;
       const NormalLaw law{lanes.rules.gap};
       const double p = lanes.rules.gap - dot(n, r);
       Vec3 sum{b.on_node[0][k], b.on_node[1][k], b.on_node[2][k]};
       const Vec3 on_node = sum;
       Vec3 moment{};
-      double k1 = 0.0;
+      double k1 = 0.0, softest = 1e300, stiffest = 0.0, spread = 0.0;
       for (int i = 0; i < 4; ++i) {
         const auto corner = static_cast<std::size_t>(i);
         EXPECT_NEAR(c.weight[corner], b.weight[i][k], 1e-12);
@@ -201,15 +217,26 @@ TEST(HeldKernel, is_the_general_way_to_rounding) {
         sum += f;
         moment += cross(patch.x[corner] - x, f);
         k1 += c.weight[corner] * b.corner_stiffness[i][k];
+        softest = std::min(softest, b.corner_stiffness[i][k]);
+        stiffest = std::max(stiffest, b.corner_stiffness[i][k]);
+        spread += std::abs(c.weight[corner]);
       }
+      const bool clipped = k1 < softest || k1 > stiffest;
+      k1 = std::clamp(k1, softest, stiffest);
       const double kappa = 0.2 * k1 * b.node_stiffness[k] / (k1 + b.node_stiffness[k]);
       EXPECT_NEAR(b.penetration[k], p, 1e-13);
-      EXPECT_NEAR(b.force[k], kappa * law.force(p), 1e-12 * b.force[k]);
+      constexpr double rounding = 1e-15;  // of P, the difference of gap and distance
+      EXPECT_NEAR(b.force[k], kappa * law.force(p), 1e-12 * b.force[k] + rounding * kappa);
       EXPECT_NEAR(b.stiffness[k], kappa, 1e-12 * kappa);
-      EXPECT_NEAR(b.potential[k], kappa * law.potential(p), 1e-12 * b.potential[k]);
+      EXPECT_NEAR(b.potential[k], kappa * law.potential(p), 1e-12 * b.potential[k] + rounding * b.force[k]);
       EXPECT_LT(norm(sum), 1e-14 * norm(on_node));
       EXPECT_LT(norm(moment), 1e-14 * (1.0 + norm(on_node)));
       EXPECT_GE(dot(on_node, n), 0.999 * b.force[k]);
+      if (clipped) {  // no gradient of stiffness: the step's stiffness is the law's, in the share of what weights that extrapolate may add
+        const double reached = p + step_growth * lanes.rules.step * std::max(-b.rate[k], 0.0);
+        EXPECT_NEAR(b.step_stiffness[k], 0.5 * (1.0 + spread) * lanes.rules.step_factor * kappa * law.tangent(reached),
+                    1e-12 * b.step_stiffness[k]);
+      }
       // The account: trapezoidal work over the last step, the change of the potential, and what the changed step made.
       const auto over = [&](const double(&weight)[4][HeldBatch::size]) {
         Vec3 v = lanes.v[static_cast<std::size_t>(k)];
@@ -236,56 +263,84 @@ TEST(HeldKernel, is_the_general_way_to_rounding) {
     }
   }
   EXPECT_GT(ordinary, 300);
+  EXPECT_GT(over_strips, 5);
+  EXPECT_GT(over_edges, 50);
+  EXPECT_GT(over_corners, 20);
   EXPECT_GT(slides, 20);
   EXPECT_LT(slides, ordinary);
 }
 
-// A whole interface by batches and node by node (a shear limit that is never reached makes it go the general way): bodies of unequal
-// stiffness, curved, that press, slide, turn and cross facets.
-TEST(HeldKernel, whole_interfaces_agree_with_the_general_way) {
-  std::vector<std::vector<Vec3>> path[2];
-  StepResult last[2];
-  for (const int way : {0, 1}) {
+/// Two bodies on rails, which press, slide, turn and cross facets: the forces and stiffness of each step by batches, or node by node
+/// (a shear limit that is never reached makes it go the general way).
+struct Rails {
+  std::vector<std::vector<Vec3>> path;
+  StepResult last;
+  double largest = 0.0;
+
+  using Height = double (*)(double, double);
+  Rails(bool batches, int lower_facets, std::array<double, 4> upper_sides, int upper_facets, Height lower_height, Height upper_height,
+        bool evenly_stiff, double speed) {
     Host host;
-    const auto lower = test::grid(host, 9, 8, -2, 2, -2, 2, [](double x, double y) { return 0.05 * x * x - 0.03 * x * y; });
+    const auto lower = test::grid(host, lower_facets, 8, -2, 2, -2, 2, lower_height);
     const std::size_t first = host.x.size();
-    const auto upper = test::grid(
-        host, 5, 5, -1.03, 1.01, -1.02, 0.97, [](double x, double y) { return 0.11 + 0.05 * x * x - 0.03 * x * y + 0.01 * y * y; }, false,
-        false, 1.0);
+    const auto [x0, x1, y0, y1] = upper_sides;
+    const auto upper = test::grid(host, upper_facets, upper_facets, x0, x1, y0, y1, upper_height, false, false, 1.0);
     Options o;
     o.gap = 0.1;
     o.friction = 0.25;
-    if (way == 1) o.shear_limit = 1e28;
+    if (!batches) o.shear_limit = 1e28;
     Interface i = Interface::two_surfaces(Surface(lower), Surface(upper), o);
-    std::vector<double> k0(lower.size()), k1(upper.size());
-    for (std::size_t f = 0; f < k0.size(); ++f) k0[f] = 900.0 + 40.0 * static_cast<double>(f % 7);
-    for (std::size_t f = 0; f < k1.size(); ++f) k1[f] = 700.0 + 60.0 * static_cast<double>(f % 5);
+    std::vector<double> k0(lower.size(), 1000.0), k1(upper.size(), 800.0);
+    for (std::size_t f = 0; f < k0.size() && !evenly_stiff; ++f) k0[f] = 900.0 + 40.0 * static_cast<double>(f % 7);
+    for (std::size_t f = 0; f < k1.size() && !evenly_stiff; ++f) k1[f] = 700.0 + 60.0 * static_cast<double>(f % 5);
     i.set_surface(0, {k0, {}, {}});
     i.set_surface(1, {k1, {}, {}});
-    // Rigid motion on rails: the paths of the two ways cannot drift apart, forces are compared in each step.
+    // The paths of the two ways cannot drift apart, forces are compared in each step.
     std::vector<Vec3> x = host.x;
     for (int s = 0; s < 600; ++s) {
       for (std::size_t n = first; n < x.size(); ++n) {
         const Vec3 at = host.x[n];
-        x[n] = at + Vec3{0.002 - 0.001 * at.y, 0.001 * at.x, -0.03 * (std::sin(0.02 * (s + 1)) - std::sin(0.02 * s))};
+        x[n] = at + Vec3{speed * (2.0 - at.y), speed * at.x, -0.03 * (std::sin(0.02 * (s + 1)) - std::sin(0.02 * s))};
       }
       host.place(i, x, s % 3 == 0 ? 1e-3 : 1.2e-3);  // accounts count what a changing step makes
-      path[way].push_back(host.f);
-      path[way].push_back({});
-      for (const double k : host.k) path[way].back().push_back({k, 0.0, 0.0});
+      path.push_back(host.f);
+      path.emplace_back();
+      for (const double k : host.k) path.back().push_back({k, 0.0, 0.0});
+      for (const Vec3& f : host.f) largest = std::max(largest, norm(f));
     }
-    last[way] = host.last;
+    last = host.last;
   }
-  double largest = 0.0;
-  for (const auto& step : path[1]) {
-    for (const Vec3& f : step) largest = std::max(largest, norm(f));
+};
+
+void expect_the_same(const Rails& batches, const Rails& general) {
+  for (std::size_t s = 0; s < batches.path.size(); ++s) {
+    for (std::size_t n = 0; n < batches.path[s].size(); ++n)
+      ASSERT_LT(norm(batches.path[s][n] - general.path[s][n]), 1e-10 * general.largest) << s << ", " << n;
   }
-  for (std::size_t s = 0; s < path[0].size(); ++s) {
-    for (std::size_t n = 0; n < path[0][s].size(); ++n) ASSERT_LT(norm(path[0][s][n] - path[1][s][n]), 1e-10 * largest) << s << ", " << n;
-  }
-  EXPECT_GT(last[0].friction_work, 0.0);
-  EXPECT_NEAR(last[0].friction_work, last[1].friction_work, 1e-10 * last[1].friction_work);
-  EXPECT_NEAR(last[0].made, last[1].made, 1e-10 * last[1].friction_work);
+  EXPECT_GT(batches.last.friction_work, 0.0);
+  EXPECT_NEAR(batches.last.friction_work, general.last.friction_work, 1e-10 * general.last.friction_work);
+  EXPECT_NEAR(batches.last.made, general.last.made, 1e-10 * general.last.friction_work);
+}
+
+TEST(HeldKernel, whole_interfaces_agree_with_the_general_way) {
+  const auto run = [](bool batches) {
+    return Rails(
+        batches, 9, {-1.03, 1.01, -1.02, 0.97}, 5, [](double x, double y) { return 0.05 * x * x - 0.03 * x * y; },
+        [](double x, double y) { return 0.11 + 0.05 * x * x - 0.03 * x * y + 0.01 * y * y; }, false, 1e-3);
+  };
+  expect_the_same(run(true), run(false));
+}
+
+// Nodes over nodes: over edges and corners where the surface is convex, and the same point seen from up to four facets where it is flat.
+TEST(HeldKernel, whole_interfaces_agree_where_meshes_match) {
+  const auto run = [](bool batches, Rails::Height lower, Rails::Height upper) {
+    return Rails(batches, 8, {-1.0, 1.0, -1.0, 1.0}, 4, lower, upper, true, 1e-5);
+  };
+  const Rails::Height flat = [](double, double) { return 0.0; }, above = [](double, double) { return 0.11; };
+  expect_the_same(run(true, flat, above), run(false, flat, above));
+  const Rails::Height round = [](double x, double y) { return -0.04 * x * x - 0.02 * y * y; };
+  const Rails::Height below = [](double x, double y) { return 0.11 - 0.03 * x * x - 0.01 * y * y; };
+  expect_the_same(run(true, round, below), run(false, round, below));
 }
 
 }  // namespace
