@@ -24,7 +24,7 @@ struct Balance {
   double ce = 0.0, fw = 0.0, dw = 0.0, cx = 0.0;   ///< interfaces: stored, friction, damping, made or lost
   double extw = 0.0, xe = 0.0;                     ///< external work; energy of eroded elements and added mass
   double initial = 0.0;                            ///< sum of the terms at the start
-  double largest = 0.0;                            ///< largest term so far
+  double largest = 0.0;                            ///< largest term so far, from what rounding makes on
   double err = 0.0;                                ///< GLOBAL/ERR: sum of the terms less the start, over the largest
   double ledger = 0.0;                             ///< GLOBAL/LEDGER: the same with the discrete works
   Vec3 momentum;                                   ///< of all nodes

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <type_traits>
 
@@ -43,6 +44,15 @@ class Fnv {
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
+
+/// Energy that rounding of the positions makes: of nodes that move by some units of their last place against the stiffness of all around.
+/// Less says nothing about a balance.
+double rounding_energy(const state::State& s) {
+  constexpr double units = 32.0 * std::numeric_limits<double>::epsilon();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < s.x.size(); ++i) sum += s.stiffness[i] * squared_norm(s.x[i]);
+  return 0.5 * units * units * sum;
+}
 
 }  // namespace
 
@@ -121,7 +131,10 @@ void Cycle::close_balance() {
   }
   b.xe = removed_energy_ - scaled_energy_;
   const double sum = b.ie + b.he + b.ke + b.ker + b.ce + b.fw + b.dw + b.xe - b.extw;
-  if (state_.times.cycle == 0) b.initial = sum;
+  if (state_.times.cycle == 0) {
+    b.initial = sum;
+    b.largest = rounding_energy(state_);
+  }
   for (const double term : {b.ie, b.he, b.ke, b.ker, b.ce, b.fw, b.dw, b.extw, b.initial}) b.largest = std::max(b.largest, std::abs(term));
   b.err = b.largest > 0.0 ? (sum - b.initial) / b.largest : 0.0;
   b.ledger = b.largest > 0.0 ? ledger / b.largest : 0.0;
