@@ -40,7 +40,8 @@ RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies, con
       same_cycle_(profile.moving_wall == Profile::MovingWall::same_cycle),
       walls_(model.rigid_walls.size()),
       sums_(model.rigid_walls.size()),
-      meter_(touched_nodes(model), &bodies) {
+      meter_(touched_nodes(model), &bodies),
+      stops_(touched_nodes(model)) {
   // Ikrem = 0: secondary nodes of a rigid body are taken out of all walls.
   std::vector<bool> removed(static_cast<std::size_t>(model.node_count()), false);
   for (const model::RigidBody& body : model.rigid_bodies) {
@@ -84,6 +85,7 @@ void RigidWalls::add_reaction(state::State& state) {
 void RigidWalls::apply(state::State& state) {
   work_ = 0.0;
   meter_.before(state);
+  stops_.before(state);
   for (std::size_t i = 0; i < walls_.size(); ++i) apply_wall(i, state);
   meter_.after(state);
 }

@@ -56,6 +56,8 @@ class RigidWalls {
   [[nodiscard]] double work() const { return work_; }
   /// Step 25: exact discrete work, including the reaction on moving walls.
   double ledger_work(const state::State& state) { return meter_.settle(state); }
+  /// Step 25, of the external work: what the energies of elements and contact lack of the work up to the stop (StopWork).
+  [[nodiscard]] double stop_work(const state::State& state) const { return stops_.settle(state); }
 
   void persist(state::Archive& a);
 
@@ -105,6 +107,7 @@ class RigidWalls {
   std::vector<Point> points_;  ///< of the wall at work
   double work_ = 0.0;
   WorkMeter meter_;
+  StopWork stops_;
 };
 
 }  // namespace abut::constraints

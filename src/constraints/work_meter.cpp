@@ -32,6 +32,23 @@ double ForceWork::settle(const state::State& state, std::span<const Vec3> force,
   return booked;
 }
 
+void StopWork::before(const state::State& state) {
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(nodes_[k]);
+    entry_[k] = {state.v[i], state.w[i]};
+  }
+}
+
+double StopWork::settle(const state::State& state) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(nodes_[k]);
+    sum += dot(state.f_contact[i] - state.f_internal[i], state.v[i] - entry_[k].v);
+    sum -= dot(state.m_internal[i], state.w[i] - entry_[k].w);
+  }
+  return 0.5 * state.times.h_bar * sum;
+}
+
 WorkMeter::WorkMeter(std::vector<Index> nodes, const RigidBodies* bodies)
     : nodes_(std::move(nodes)), bodies_(bodies), entry_(nodes_.size()), da_(nodes_.size()), dalpha_(nodes_.size()) {}
 

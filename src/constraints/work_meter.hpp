@@ -40,6 +40,27 @@ class ForceWork {
   double second_half_ = 0.0;
 };
 
+/// Energies that are computed from motion (of elements, of contact) take the work of their force g over the whole step up to t^n at the
+/// velocity V that enters the cycle, leap-frog gives the second half of it at v. Where a wall has changed the velocity, what is missing,
+///     1/2 hb g . (v - V),
+/// is the wall's: without it the balance is wrong to first order in the step where nodes under force are stopped. (Bodies feel impulses of
+/// walls as accelerations, which are no jumps.)
+class StopWork {
+ public:
+  /// @param nodes whose velocity may jump
+  explicit StopWork(std::vector<Index> nodes) : nodes_(std::move(nodes)), entry_(nodes_.size()) {}
+  void before(const state::State& state);
+  /// Step 25.
+  [[nodiscard]] double settle(const state::State& state) const;
+
+ private:
+  struct Entry {
+    Vec3 v, w;
+  };
+  std::vector<Index> nodes_;
+  std::vector<Entry> entry_;
+};
+
 /// Measures the work of whatever changes v, w, a, alpha of its nodes between before() and after().
 class WorkMeter {
  public:

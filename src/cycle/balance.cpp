@@ -103,7 +103,8 @@ void Cycle::close_balance() {
   const KineticSums kinetic = ledger_.sum(state_, product_form, pool_);
   const double external = (loaded_ ? loads_.ledger_work(state_) : 0.0) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
                           imposed_.ledger_work(state_) + bodies_.hold_work(state_) + walls_.ledger_work(state_) + edited_work_;
-  b.extw += options_.profile.external_work == Profile::ExternalWork::discrete ? external : booked_work_ + edited_work_;
+  const bool discrete = options_.profile.external_work == Profile::ExternalWork::discrete;
+  b.extw += discrete ? external + (stops_ ? stops_->settle(state_) : walls_.stop_work(state_)) : booked_work_ + edited_work_;
   const double constraint_work = external + bodies_.ledger_work(state_);
   const double t_star = kinetic.leapfrog + bodies_.ledger_correction(state_);
   const double ledger = ledger_.close(t_star, constraint_work);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "constraints/rigid_bodies.hpp"
 #include "constraints/rigid_walls.hpp"
 #include "constraints/sections.hpp"
+#include "constraints/work_meter.hpp"
 #include "cycle/contact_facing.hpp"
 #include "cycle/contact_mobility.hpp"
 #include "cycle/contact_thickness.hpp"
@@ -138,12 +140,13 @@ class Cycle {
   bool begun_ = false;
   bool eroded_ = false;
   double scaled_energy_ = 0.0;
-  double removed_energy_ = 0.0;            // held by deleted elements that their groups no longer count
-  std::vector<Vec3> edited_v_, edited_w_;  // #N, empty: nothing was changed
-  double start_work_ = 0.0;                // of gradual starts, a part of the external work
-  double edited_work_ = 0.0;               // energy that the caller's changes brought in this cycle
-  double booked_work_ = 0.0;               // external work of this cycle as the reference program books it
-  int beyond_limit_ = 0;                   // cycles in a row with an energy error beyond the limit
+  double removed_energy_ = 0.0;                 // held by deleted elements that their groups no longer count
+  std::vector<Vec3> edited_v_, edited_w_;       // #N, empty: nothing was changed
+  std::optional<constraints::StopWork> stops_;  // of all nodes, in a cycle that takes over changes
+  double start_work_ = 0.0;                     // of gradual starts, a part of the external work
+  double edited_work_ = 0.0;                    // energy that the caller's changes brought in this cycle
+  double booked_work_ = 0.0;                    // external work of this cycle as the reference program books it
+  int beyond_limit_ = 0;                        // cycles in a row with an energy error beyond the limit
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;

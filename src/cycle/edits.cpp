@@ -2,8 +2,10 @@
 //
 // v(n-1/2) has already moved the nodes to x(n), and elements and contact of cycle n still measure that motion with it. So a change
 // takes effect after they have, as a jump of the half-step velocity like those of boundary conditions and walls, and books
-// what a jump books (constraints/work_meter.hpp): sum 1/2 m (|v|^2 - |V|^2), exact for the ledger.
+// what a jump books (constraints/work_meter.hpp): sum 1/2 m (|v|^2 - |V|^2), exact for the ledger, and in the balance what the energies of
+// elements and contact lack of the work up to the jump (StopWork).
 #include <cstddef>
+#include <numeric>
 
 #include "cycle/cycle.hpp"
 
@@ -21,6 +23,12 @@ std::span<Vec3> Cycle::edit_angular_velocities() {
 
 double Cycle::take_over_edits() {
   double work = 0.0;
+  stops_.reset();
+  if ((!edited_v_.empty() || !edited_w_.empty()) && state_.times.cycle > 0) {
+    std::vector<Index> all(state_.v.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    stops_.emplace(std::move(all)).before(state_);
+  }
   const auto own = [this](std::size_t i) { return bodies_.body_of(static_cast<Index>(i)) == no_index; };  // not moved by a body
   for (std::size_t i = 0; i < edited_v_.size(); ++i) {
     if (!own(i)) continue;

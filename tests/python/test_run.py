@@ -119,6 +119,25 @@ def test_changed_velocities_are_booked_as_external_work():
     assert np.abs(run.velocities).max() < 0.1
 
 
+@pytest.mark.parametrize("factor", [0.0, -1.0, 2.0])
+def test_changed_velocities_under_stress_keep_the_balance(factor):
+    """Elements count their force over the whole step up to the change: of first order in the step, 1e-2 of the energy here."""
+    b = builder()
+    one_cube(b)
+    b.engine(1.0)
+    run = abut.Run(b.build())
+    run.advance(1)
+    run.velocities = 1e-4 * (run.positions - 0.5)  # swings in and out
+    for _ in range(8):
+        run.advance(7)
+        assert run.balance.ie > 0.02 * run.balance.ke
+        before = run.balance.err * run.balance.largest
+        run.velocities = factor * run.velocities
+        run.advance(1)
+        assert abs(run.balance.err * run.balance.largest - before) < 1e-4 * run.balance.largest
+        assert abs(run.balance.ledger) < 1e-12
+
+
 @pytest.mark.parametrize("value, words", [
     (np.zeros((7, 3)), r"velocities has shape \(7, 3\), expected \(8, 3\)"),
     (np.zeros(24), r"velocities has shape \(24,\), expected \(8, 3\)"),

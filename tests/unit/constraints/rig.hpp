@@ -68,7 +68,7 @@ struct Rig {
   double baseline = 0.0;  ///< kinetic energy at the start
   double kinetic = 0.0;   ///< T*_n of the last cycle
   double work_loads = 0.0, work_gravity = 0.0, work_conditions = 0.0, work_motions = 0.0, work_hold = 0.0, work_walls = 0.0,
-         work_bodies = 0.0, work_forces = 0.0;
+         work_stops = 0.0, work_bodies = 0.0, work_forces = 0.0;
 
   explicit Rig(model::Model m, double mass = 1.0, double inertia = 0.0, Profile p = {})
       : model(std::move(m)), profile(p), s(state_of(model, mass, inertia)) {}
@@ -126,6 +126,7 @@ struct Rig {
     work_motions += motions.ledger_work(s);
     work_hold += bodies.hold_work(s);
     work_walls += walls.ledger_work(s);
+    work_stops += walls.stop_work(s);
     work_bodies += bodies.ledger_work(s);
     work_forces += force_work.settle(s, s.f_contact, moment);
     output(s);

@@ -64,6 +64,29 @@ TEST(WallAndBody, FlatBlockStops) {
   EXPECT_NEAR(rig.work_walls, -0.5 * mass * 4.0, 1e-11);
 }
 
+// Springs on the corners of a block that falls flat. The impulse of the wall is an acceleration of the block: no velocity jumps.
+TEST(WallAndBody, StopsABlockUnderForceWithABalance) {
+  Rig rig(block(0.3, {}), 0.5);
+  rig.s.v[0] = {0, 0, -2.0};
+  const double rest = rig.s.x[1].z;
+  double stored = 0.0;
+  std::vector<double> last(9, 0.0);
+  rig.forces = [&](state::State& s) {
+    for (std::size_t i = 1; i < 5; ++i) {  // the lower corners
+      const double force = -100.0 * (s.x[i].z - rest);
+      stored -= 0.5 * s.times.h_minus * (last[i] + force) * s.v[i].z;
+      s.f_contact[i] = {0, 0, last[i] = force};
+    }
+  };
+  rig.start();
+  for (int n = 0; n < 60; ++n) {
+    rig.step(0.01);
+    ASSERT_NEAR(rig.kinetic + stored - rig.work_walls - rig.work_bodies - rig.work_stops, rig.baseline, 1e-11) << n;
+  }
+  EXPECT_LT(rig.work_walls, -1.0);
+  EXPECT_EQ(rig.work_stops, 0.0);
+}
+
 // On one corner r beside the centre: impulse j = v / a, a = N.(1/M + turn (r x N).J^-1 (r x N)), energy lost v^2 / 2a; the
 // block goes on turning with w = J^-1 (r x N) j until the next corners hit, none of which goes through.
 TEST(WallAndBody, CornerHitsInClosedForm) {

@@ -44,6 +44,35 @@ TEST(RigidWall, StopsANodeBeforeItCrosses) {
   EXPECT_NEAR(rig.work_walls, -9.0, 1e-14);
 }
 
+// A node that a spring pushes is stopped: the spring's energy by the trapezoidal rule, which counts the force over the whole step to the
+// stop, and the kinetic energy balance with the wall's work and what it stops of the force's, at any step.
+TEST(RigidWall, StopsANodeUnderForceWithABalance) {
+  for (const int slide : {0, 1, 2}) {
+    for (const double h : {0.01, 0.0025}) {
+      Rig rig(above_a_wall({{0, 0, 0.1}}, slide, 0.3), 2.0);
+      rig.s.v[0] = {0.5, 0, -3};
+      const Vec3 rest{0, 0, 0.1};
+      const double k = 900.0;
+      double stored = 0.0;
+      Vec3 last{};
+      rig.forces = [&](state::State& s) {
+        const Vec3 force = -k * (s.x[0] - rest);
+        stored -= 0.5 * s.times.h_minus * dot(last + force, s.v[0]);
+        s.f_contact[0] = last = force;
+      };
+      rig.start();
+      double largest_stop = 0.0;
+      for (int n = 0; n < static_cast<int>(0.6 / h); ++n) {
+        rig.step(h);
+        ASSERT_NEAR(rig.ledger(), 0.0, 1e-12);
+        ASSERT_NEAR(rig.kinetic + stored - rig.work_walls - rig.work_stops, rig.baseline, 1e-12) << slide << " " << n;
+        largest_stop = std::max(largest_stop, std::abs(rig.work_stops));
+      }
+      EXPECT_GT(largest_stop, 10.0 * h);  // of first order in the step
+    }
+  }
+}
+
 TEST(RigidWall, LetsANodeGoThatMovesAway) {
   Rig rig(above_a_wall({{0, 0, 0.001}}, 1));
   rig.s.v[0] = {0, 0, -1};
