@@ -143,7 +143,7 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
       k += state.stiffness[s];
       kr += state.rotational_stiffness[s] + squared_norm(r) * state.stiffness[s];
       if (conserving_) springs.add(state.x[s] - centre, state.stiffness[s], state.rotational_stiffness[s]);
-      state.stiffness[s] = state.rotational_stiffness[s] = 1e-20;
+      state.stiffness[s] = state.rotational_stiffness[s] = conserving_ ? 0.0 : 1e-20;
     }
     sums.force_impulse += h_minus * sums.force;
     sums.moment_impulse += h_minus * sums.moment;

@@ -1,9 +1,12 @@
 #include "cycle/time_step.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "abut/diagnostic.hpp"
 #include "constraints/rigid_bodies.hpp"
 #include "parallel/ordered_sum.hpp"
 
@@ -107,6 +110,22 @@ Index TimeStep::first_beyond(double ratio, const state::State& s) const {
   return no_index;
 }
 
+void TimeStep::refuse_endless(const state::State& s, double step, const StepController& who) const {
+  constexpr double most_cycles = 1e13;
+  const model::Controls& control = model_.controls;
+  const bool stands_still = !(s.times.t + step > s.times.t);
+  const bool chosen = step >= control.dt_initial && control.dt_initial > 0.0;  // a first step of the deck grows
+  const bool endless = s.times.cycle == 0 && !chosen && control.t_end < 1e29 && control.t_end > most_cycles * step;
+  if (!stands_still && !endless) return;
+  using Kind = StepController::Kind;
+  const bool node = who.kind == Kind::node || who.kind == Kind::contact_node;
+  const std::string by = node ? fmt::format(" of node {}", who.id) : who.kind == Kind::interface ? fmt::format(" of interface {}", who.id) : "";
+  throw RunError(fmt::format("the time step {:.4g}{} does not get to the end time {:.6g} in {} (cycle {}, time {:.6g}): look at the mass, "
+                             "stiffness and gap there, and at the limits of /DT",
+                             step, by, control.t_end, stands_still ? "any number of cycles" : fmt::format("{:.0e} cycles", most_cycles),
+                             s.times.cycle, s.times.t));
+}
+
 StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness,
                                 parallel::ThreadPool& pool) {
   const model::Controls& control = model_.controls;
@@ -137,8 +156,9 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
   if (control.dt_max < step) take(control.dt_max, {StepController::Kind::fixed, 0});
   if (s.times.cycle == 0 && control.dt_initial > 0.0 && control.dt_initial < step)
     take(control.dt_initial, {StepController::Kind::fixed, 0});
-  if (1.1 * previous_step_ < step) step = 1.1 * previous_step_;
   if (step > 1e29) step = control.t_end > 0.0 ? 1e-3 * control.t_end : 1.0;  // nothing deforms: any step is stable
+  if (1.1 * previous_step_ < step) step = 1.1 * previous_step_;
+  refuse_endless(s, step, who);
   previous_step_ = step;
   s.times.h_plus = step;
   s.times.h_bar = 0.5 * (s.times.h_minus + step);

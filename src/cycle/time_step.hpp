@@ -52,6 +52,8 @@ class TimeStep {
   struct Smallest : LimitLeaf {
     Smallest& operator+=(const Smallest& b);
   };
+  /// Throws RunError where time stands still, or the first step asks for more cycles than any machine can do.
+  void refuse_endless(const state::State& s, double step, const StepController& who) const;
   [[nodiscard]] Smallest nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool);
 
   const model::Model& model_;

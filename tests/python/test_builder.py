@@ -189,3 +189,17 @@ def test_what_the_reader_refuses():
         b.build()
     text = str(caught.value)
     assert "density is -1" in text and "Poisson's ratio is 0.7" in text and "/PROP" in text and "model_0000.rad" in text
+
+
+def test_a_model_in_which_all_is_rigid_falls_in_steps():
+    """Nothing limits the step then: it is a thousandth of the run, not the whole of it."""
+    b = builder()
+    nodes, main = b.nodes(cube()), b.nodes([[0.5, 0.5, 0.5]])
+    b.part(b.solid_property(), b.elastic(**STEEL), bricks=[nodes])
+    b.rigid_body(main[0], nodes)
+    b.gravity("z", b.function([0.0, 1.0], [1.0, 1.0]), scale=-9.81e-3)
+    b.engine(2.0)
+    run = abut.Run(b.build(), threads=1)
+    run.advance_to_end()
+    assert 900 < run.cycle < 1100 and run.time == pytest.approx(2.0, rel=2e-3)
+    assert run.displacements[:8, 2] == pytest.approx(np.full(8, -0.5 * 9.81e-3 * run.time**2), rel=2e-3)

@@ -57,6 +57,14 @@ TEST(Stops, AtTheMinimumStepOfAnElement) {
   EXPECT_NE(message.find(", below the minimum 0.001 of /DT, at cycle 0"), std::string::npos) << message;
 }
 
+// A step that never gets to the end is an error at once, not a run that goes on for ever.
+TEST(Stops, WhereTheStepDoesNotGetToTheEnd) {
+  const std::string message = failure_of(with_line(base_engine, "/DT", 1, "1e-30 0"));
+  EXPECT_EQ(message.find("the time step "), 0U) << message;
+  EXPECT_NE(message.find(" does not get to the end time "), std::string::npos) << message;
+  EXPECT_NE(message.find(" in 1e+13 cycles (cycle 0, time 0)"), std::string::npos) << message;
+}
+
 TEST(Stops, AtTheAddedMassOfTheDeck) {
   const std::string scaled = with_line(base_engine, "/DT", 0, "/DT/NODA/CST\n0.9 1e-3\n/DT");
   EXPECT_NE(failure_of(with_line(scaled, "/STOP", 1, "0 0.01")).find("beyond the limit of 0.01 of /STOP at cycle "), std::string::npos);
