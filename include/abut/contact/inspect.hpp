@@ -5,6 +5,7 @@
 //
 // The one precondition, of all functions that take an InspectionInput: every node index of its sides lies in 0 ... #N - 1, x has finite
 // #N positions, and a span that is not empty has the length written beside it. It is not checked: Interface::inspect() and Python do.
+// All of them throw std::invalid_argument when gap, stiffness_scale or element_step is negative or not finite.
 #pragma once
 
 #include <array>
@@ -72,7 +73,7 @@ struct InspectionInput {
   double element_step = 0.0;     ///< stable step without the interface; 0: not known
 };
 
-/// Beyond these the inspection speaks.
+/// Beyond these the inspection speaks; std::invalid_argument for one that is not a number.
 struct InspectionLimits {
   double aspect_ratio = 5.0;       ///< longest over shortest side (T7)
   double warp_degrees = 15.0;      ///< angle between the two triangles of a quadrilateral (T7)

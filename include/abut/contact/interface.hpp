@@ -72,8 +72,8 @@ class Interface {
   /// (sum of a quarter per facet around them); used in series unless rules.one_pass_half_stiffness. Empty: half of the
   /// facet's stiffness is taken. Their order is the order of sums: sort them by key.
   /// @param nodes  #nodes host indices, each >= 0; they may lie on the surface
-  /// @throws std::invalid_argument when a node is listed twice, node_stiffness is neither empty nor #nodes long, or an option is out
-  ///         of its range (options.hpp)
+  /// @throws std::invalid_argument when a node is listed twice, node_stiffness is neither empty nor #nodes long or has a value that is
+  ///         negative or not finite, or an option is out of its range (options.hpp)
   static Interface nodes_to_surface(std::vector<Index> nodes, std::vector<double> node_stiffness, Surface surface, const Options& options);
 
   /// TYPE7: every node-facet pair within the gap repels, on both sides. The surface is side 1.
@@ -110,20 +110,21 @@ class Interface {
   /// @param element_step  time: stable step without the interface; 0: not known
   /// @param outward  of both sides, see InspectedSide::outward: #F or empty
   /// @return findings, worst first; Finding::facets are positions in the surface as it was given, Finding::nodes host indices
-  /// @throws std::invalid_argument when a span is too short, or outward is neither empty nor #F long
+  /// @throws std::invalid_argument when a span is too short, outward is neither empty nor #F long, element_step is negative or not
+  ///         finite, or a limit is not a number
   [[nodiscard]] std::vector<Finding> inspect(const HostState& host, double element_step = 0.0,
                                              const std::array<std::span<const std::int8_t>, 2>& outward = {},
                                              const InspectionLimits& limits = {}) const;
 
   /// Once per step, before evaluate, with the same positions.
   /// @pre positions and velocities are finite, masses are >= 0
-  /// @throws std::invalid_argument when x, v or a mass that is not empty is too short for the interface's nodes, or `constrained` names an
-  ///         entry that does not exist
+  /// @throws std::invalid_argument when x, v or a mass that is not empty is too short for the interface's nodes, `constrained` names an
+  ///         entry that does not exist, the time is not finite, or a step is negative or not finite
   void search(const HostState& host);
   /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added
   /// @param stiffness #N: contact stiffness is added (numerics.md 2.3 convention: h <= sqrt(2 m / K))
-  /// @throws std::logic_error without a search in this step, std::invalid_argument when a span is too short for the interface's nodes
+  /// @throws std::logic_error without a search in this step, std::invalid_argument as search() and when a span is too short
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness);
   /// Sets to zero what the last evaluate() added to (of both_sides: at all of its nodes), for hosts that keep forces and stiffness of
   /// contact apart and would else clear all of their arrays in every step. After restore() it knows of nothing.

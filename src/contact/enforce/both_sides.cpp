@@ -25,12 +25,16 @@ double warp(const Side& surface) {
 }
 
 BothSidesOptions checked(BothSidesOptions o) {
-  if (!(o.gap > 0.0)) throw std::invalid_argument("a two-sided interface needs a gap > 0");
+  if (!(o.gap > 0.0) || !std::isfinite(o.gap)) throw std::invalid_argument("a two-sided interface needs a gap > 0 that is finite");
   if (!(o.friction >= 0.0)) throw std::invalid_argument("friction must be >= 0");
   if (!(o.damping >= 0.0) || !(o.friction_viscosity >= 0.0)) throw std::invalid_argument("damping shares must be >= 0");
   if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) throw std::invalid_argument("filter share must be > 0 and at most 1");
   if (o.node_gap.empty() != o.facet_gap.empty()) throw std::invalid_argument("node_gap and facet_gap: both or none");
   if (o.node_size.empty() != o.facet_size.empty()) throw std::invalid_argument("node_size and facet_size: both or none");
+  check_finite(o.node_gap, "node_gap");
+  check_finite(o.facet_gap, "facet_gap");
+  check_finite(o.node_size, "node_size");
+  check_finite(o.facet_size, "facet_size");
   return o;
 }
 

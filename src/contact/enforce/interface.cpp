@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -62,6 +63,11 @@ struct Interface::Made {
     check(host.v.size(), "v");
     check(host.mass.size(), "mass", true);
     check(host.constrained.size(), "constrained", true);
+    if (!std::isfinite(host.time)) throw std::invalid_argument("contact: time must be finite, not " + std::to_string(host.time));
+    for (const double step : {host.dt, host.dt_bar_old}) {
+      if (step >= 0.0 && std::isfinite(step)) continue;
+      throw std::invalid_argument("contact: the step before (dt) must be a finite number >= 0, not " + std::to_string(step));
+    }
     Index lowest = no_index, highest = no_index;
     for (const Index entry : host.constrained) {
       lowest = std::min(lowest, entry);

@@ -73,6 +73,7 @@ OneSided::OneSided(std::vector<Index> nodes, std::vector<double> node_stiffness,
     throw std::invalid_argument("contact: " + std::to_string(node_stiffness.size()) + " stiffnesses for " + std::to_string(nodes.size()) +
                                 " nodes");
   }
+  check_finite(node_stiffness, "node_stiffness");
   std::vector<Index> sorted = nodes;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {

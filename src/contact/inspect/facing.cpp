@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 namespace abut::contact {
 namespace {
@@ -194,6 +196,16 @@ std::vector<std::array<PieceVote, 2>> piece_votes(const Shape& shape, const Faci
   return votes;
 }
 
+void check(const InspectionInput& input) {
+  const auto finite = [](double value, const char* name) {
+    if (value >= 0.0 && std::isfinite(value)) return;
+    throw std::invalid_argument("contact: " + std::string(name) + " must be a finite number >= 0, not " + std::to_string(value));
+  };
+  finite(input.gap, "gap");
+  finite(input.stiffness_scale, "stiffness_scale");
+  finite(input.element_step, "element_step");
+}
+
 struct FacingWatch::Known {
   std::array<Shape, 2> shapes;
 };
@@ -204,6 +216,7 @@ FacingWatch::FacingWatch(FacingWatch&&) noexcept = default;
 FacingWatch& FacingWatch::operator=(FacingWatch&&) noexcept = default;
 
 std::array<Facing, 2> FacingWatch::look(const InspectionInput& input) {
+  check(input);
   if (known_ == nullptr) {
     const auto shape = [&input](std::size_t k) {
       Shape made(input.side[k], input.x);
@@ -222,6 +235,7 @@ std::array<Facing, 2> FacingWatch::look(const InspectionInput& input) {
 std::array<Facing, 2> facing(const InspectionInput& input) { return FacingWatch().look(input); }
 
 Orientation orient(const InspectionInput& input) {
+  check(input);
   const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
   const BothViews views = look(shapes, input.gap);
   Orientation out;

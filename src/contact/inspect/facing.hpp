@@ -26,6 +26,9 @@ struct BothViews {
   [[nodiscard]] std::array<Facing, 2> take_facing();
 };
 
+/// @throws std::invalid_argument when the gap, the stiffness scale or the element step is negative or not finite
+void check(const InspectionInput& input);
+
 [[nodiscard]] BothViews look(const std::array<Shape, 2>& shapes, double gap);
 /// Where facets repel on both sides: only the reach and the smallest distance of a node of side 0 to the facets that it is no corner of.
 [[nodiscard]] BothViews look_unsigned(const std::array<Shape, 2>& shapes, std::span<const Vec3> x, double gap);

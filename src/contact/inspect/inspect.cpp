@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <initializer_list>
+#include <stdexcept>
 
 #include "contact/inspect/findings.hpp"
 
@@ -35,6 +38,11 @@ std::string short_number(double value) {
 }
 
 std::vector<Finding> inspect(const InspectionInput& input, const InspectionLimits& limits, std::array<Facing, 2>* facing) {
+  check(input);
+  for (const double limit : {limits.aspect_ratio, limits.warp_degrees, limits.size_ratio, limits.stiffness_ratio, limits.concave_degrees,
+                             limits.gap_of_size, limits.steps_through_gap}) {
+    if (std::isnan(limit)) throw std::invalid_argument("contact: a limit of the inspection is not a number");
+  }
   const std::array<Shape, 2> shapes{Shape(input.side[0], input.x), Shape(input.side[1], input.x)};
   BothViews views = input.both_sides ? look_unsigned(shapes, input.x, input.gap) : look(shapes, input.gap);
   std::vector<Finding> out;

@@ -17,7 +17,10 @@ std::vector<Bar> histogram(const std::vector<double>& values) {
   const double width = (*high - *low) / bars;
   std::vector<Bar> out;
   for (int b = 0; b < bars; ++b) out.push_back({*low + b * width, b + 1 == bars ? *high : *low + (b + 1) * width, 0});
-  for (const double v : values) ++out[static_cast<std::size_t>(std::min(bars - 1, static_cast<int>((v - *low) / width)))].count;
+  for (const double v : values) {
+    const double bar = (v - *low) / width;  // not a number where the width has no size that a double can hold
+    ++out[bar < bars ? static_cast<std::size_t>(bar) : bars - 1].count;
+  }
   return out;
 }
 

@@ -38,6 +38,13 @@ Side::Side(Surface surface, bool canonical) {
   corner_stiffness_ = node_stiffness_;
 }
 
+void check_finite(std::span<const double> values, const char* what) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] >= 0.0 && std::isfinite(values[i])) continue;
+    throw std::invalid_argument("contact: " + std::string(what) + " " + std::to_string(i) + " is not a finite number >= 0");
+  }
+}
+
 Side::Side(std::vector<Index> nodes, std::vector<double> stiffness)
     : nodes_(std::move(nodes)), node_stiffness_(Values(std::move(stiffness))) {
   x_.resize(nodes_.size());
@@ -59,16 +66,8 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     throw std::invalid_argument("contact: " + std::to_string(state.node_active.size()) + " values of node activity for " +
                                 std::to_string(x_.size()));
   }
-  for (std::size_t i = 0; i < state.stiffness.size(); ++i) {
-    if (!(state.stiffness[i] >= 0.0) || !std::isfinite(state.stiffness[i])) {
-      throw std::invalid_argument("contact: stiffness " + std::to_string(i) + " is not a finite number >= 0");
-    }
-  }
-  for (std::size_t i = 0; i < state.thickness.size(); ++i) {
-    if (!(state.thickness[i] >= 0.0) || !std::isfinite(state.thickness[i])) {
-      throw std::invalid_argument("contact: thickness " + std::to_string(i) + " is not a finite number >= 0");
-    }
-  }
+  check_finite(state.stiffness, "stiffness");
+  check_finite(state.thickness, "thickness");
   if (!facets) {
     if (!state.stiffness.empty()) node_stiffness_ = Values({state.stiffness.begin(), state.stiffness.end()});
     if (!state.thickness.empty()) node_thickness_ = Values({state.thickness.begin(), state.thickness.end()});

@@ -17,6 +17,9 @@ constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 /// Of facets or nodes of a surface.
 using Values = simd::FewValues<std::uint8_t>;
 
+/// @throws std::invalid_argument, with the name of the values, when one is negative or not finite
+void check_finite(std::span<const double> values, const char* what);
+
 class Side {
  public:
   Side() = default;

@@ -1,0 +1,94 @@
+// Numbers that are no lengths, stiffnesses, scales or times are refused where they come in.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "unit/contact/bench_host.hpp"
+
+namespace abut::contact {
+namespace {
+
+using test::flat;
+using test::grid;
+using test::Host;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+
+// Bad geometry is found, bad numbers are refused.
+TEST(Refused, numbers_of_the_inspection) {
+  Host host;
+  const auto first = grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat), second = grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat);
+  InspectionInput good;
+  good.side[0].facets = first;
+  good.side[1].facets = second;
+  good.x = host.x;
+  for (double InspectionInput::*number : {&InspectionInput::gap, &InspectionInput::stiffness_scale, &InspectionInput::element_step}) {
+    for (const double bad : {nan, infinite, -1.0}) {
+      InspectionInput input = good;
+      input.*number = bad;
+      EXPECT_THROW((void)inspect(input), std::invalid_argument) << bad;
+      EXPECT_THROW((void)facing(input), std::invalid_argument) << bad;
+      EXPECT_THROW((void)orient(input), std::invalid_argument) << bad;
+    }
+  }
+  EXPECT_NO_THROW((void)inspect(good));
+  InspectionLimits limits;
+  limits.size_ratio = nan;
+  EXPECT_THROW((void)inspect(good, limits), std::invalid_argument);
+  const Interface made = Interface::two_surfaces(Surface(first), Surface(second), {});
+  EXPECT_THROW((void)made.inspect(host.state(), nan), std::invalid_argument);
+}
+
+TEST(Refused, times_and_steps) {
+  Host host;
+  Interface i =
+      Interface::two_surfaces(Surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat)), Surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat)), {});
+  const auto refused = [&](double HostState::*number, double value) {
+    HostState bad = host.state();
+    bad.*number = value;
+    EXPECT_THROW(i.search(bad), std::invalid_argument) << value;
+    i.search(host.state());
+    std::vector<Vec3> force(host.x.size());
+    std::vector<double> stiffness(host.x.size());
+    EXPECT_THROW((void)i.evaluate(bad, force, stiffness), std::invalid_argument) << value;
+  };
+  for (const double bad : {nan, infinite}) refused(&HostState::time, bad);
+  for (const double bad : {nan, infinite, -1.0}) {
+    refused(&HostState::dt, bad);
+    refused(&HostState::dt_bar_old, bad);
+  }
+}
+
+TEST(Refused, stiffness_of_held_nodes) {
+  Host host;
+  const Surface surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat));
+  const Index node = host.add({0.5, 0.5, 0.1}, 1.0);
+  for (const double bad : {-1.0, nan, infinite}) {
+    EXPECT_THROW((void)Interface::nodes_to_surface({node}, {bad}, surface, {}), std::invalid_argument) << bad;
+  }
+  EXPECT_NO_THROW((void)Interface::nodes_to_surface({node}, {0.0}, surface, {}));
+}
+
+TEST(Refused, gaps_and_sizes_of_both_sides) {
+  Host host;
+  const Surface surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat));
+  const Index node = host.add({0.5, 0.5, 0.1}, 1.0);
+  for (const double bad : {-0.1, nan, infinite}) {
+    BothSidesOptions o;
+    o.gap = bad;
+    EXPECT_THROW((void)Interface::both_sides({node}, surface, o), std::invalid_argument) << bad;
+    for (auto list :
+         {&BothSidesOptions::node_gap, &BothSidesOptions::facet_gap, &BothSidesOptions::node_size, &BothSidesOptions::facet_size}) {
+      o = {};
+      o.gap = 0.1;
+      o.node_gap = o.facet_gap = o.node_size = o.facet_size = {0.1};
+      EXPECT_NO_THROW((void)Interface::both_sides({node}, surface, o));
+      (o.*list)[0] = bad;
+      EXPECT_THROW((void)Interface::both_sides({node}, surface, o), std::invalid_argument) << bad;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace abut::contact
