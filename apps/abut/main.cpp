@@ -16,6 +16,7 @@
 #include "abut/run.hpp"
 #include "commands.hpp"
 #include "findings.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace {
 
@@ -58,7 +59,7 @@ int main(int argc, char** argv) {
   run_app->add_option("DECK", run.deck, "Starter deck NAME_0000.rad")->required();
   run_app->add_option("-o,--output", run.output, "run folder (default: ./NAME)");
   run_app->add_option("--threads", run.threads, "number of threads (default: all); results do not depend on it")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, abut::parallel::most_threads));
   run_app->add_option("--profile", run.profile, "rule set: standard or reference")->check(profiles)->capture_default_str();
   const char* interface_help =
       "ID:KEY=VALUE..., settings between commas of an interface of TYPE3 or TYPE5, or of all: law=stiffening or constant, gap=auto or card "
@@ -92,7 +93,7 @@ int main(int argc, char** argv) {
   resume_app->add_option("FOLDER", resume.folder, "run folder")->required();
   resume_app->add_option("--deck", resume.deck, "Starter deck, when it is not where it was");
   resume_app->add_option("--threads", resume.threads, "number of threads (default: all); results do not depend on it")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, abut::parallel::most_threads));
   resume_app->add_option("--checkpoint-every", resume.checkpoint_every, "write a checkpoint every N cycles (default: as before)")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   resume_app->add_flag("--timing", resume.timing, "print the time spent in each phase");

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -163,7 +165,10 @@ struct ThreadPool::Impl {
   }
 };
 
-ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>(static_cast<std::size_t>(std::max(threads, 1)))) {
+ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>(static_cast<std::size_t>(std::clamp(threads, 1, most_threads)))) {
+  if (threads > most_threads) {
+    throw std::invalid_argument("threads is " + std::to_string(threads) + ", expected at most " + std::to_string(most_threads));
+  }
   // Some 100 us, longer than what a cycle of a large model does on one thread between two loops: waking up costs as much. With more threads
   // than processors whoever waits awake keeps others from working.
   if (threads <= static_cast<int>(std::thread::hardware_concurrency())) impl_->patience = 5000;

@@ -8,11 +8,15 @@
 
 namespace abut::parallel {
 
+/// More are refused: nobody has as many processors, and the system gives up long before a pool of 100 000 is made.
+inline constexpr int most_threads = 4096;
+
 /// Runs loops over ranges in parallel. Which thread takes which chunk never influences a result: bodies write only to
 /// what belongs to their own range, and sums over a range are done afterwards in a fixed order.
 class ThreadPool {
  public:
   /// @param threads number of threads that work, the caller included; at least 1
+  /// @throws std::invalid_argument for more than most_threads
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;

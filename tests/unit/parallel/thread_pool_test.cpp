@@ -36,6 +36,14 @@ Ranges ranges_of(ThreadPool& pool, std::size_t count, std::size_t grain) {
   return found;
 }
 
+// Before a thread is started.
+TEST(ThreadPool, MoreThreadsThanTheLimitAreRefused) {
+  try {
+    const ThreadPool pool(most_threads + 1);
+    FAIL() << "4097 threads were started";
+  } catch (const std::invalid_argument& error) { EXPECT_STREQ(error.what(), "threads is 4097, expected at most 4096"); }
+}
+
 // Sorted, no range empty, each begins where the one before ends: every index of [0, count) once.
 TEST(ThreadPool, RangesCoverEveryIndexOnce) {
   for (const int threads : {1, 2, 3, 8}) {
