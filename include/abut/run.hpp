@@ -37,7 +37,7 @@ struct ContactRecording {
 };
 
 struct RunSettings {
-  int threads = 0;                               ///< 0: all that the machine has
+  int threads = 0;                               ///< 0: all that the machine has; more than 4096 are std::invalid_argument
   Choices choices;                               ///< rule set and settings of interfaces
   std::filesystem::path output;                  ///< run folder (docs/guide/outputs.md); empty: no files are written
   int checkpoint_every = 0;                      ///< cycles between checkpoints in the run folder; 0: as /RFILE of the deck says
@@ -52,7 +52,7 @@ struct RunSettings {
 /// Settings of a run that goes on; the mechanics are those of the run that wrote the checkpoint.
 struct ResumeSettings {
   std::filesystem::path deck;  ///< Starter deck; empty: where it was when the checkpoint was written
-  int threads = 0;             ///< 0: all that the machine has
+  int threads = 0;             ///< as in RunSettings
   int checkpoint_every = -1;   ///< -1: as before
   bool record_history = true;
   bool progress = false;
@@ -95,7 +95,8 @@ class Run {
   /// A run of `model` that begins in the state of a checkpoint; its files, if any, begin there too.
   /// @throws RunError when the checkpoint is not one of this model and these choices
   [[nodiscard]] static Run load(const Model& model, const std::filesystem::path& checkpoint, const RunSettings& settings = {});
-  /// Writes a checkpoint: the whole state, in a file that is complete or not there. @throws RunError
+  /// Writes a checkpoint: the whole state, in a file that is complete or not there. It takes the place of a file of that name.
+  /// @throws RunError when it cannot be written, or something else than a file is there; what was there stays
   void save(const std::filesystem::path& checkpoint);
 
   ~Run();  ///< ends the run if finish() was not called; never throws
@@ -153,7 +154,7 @@ class Run {
   [[nodiscard]] std::vector<double> element_field(ElementKind kind, std::string_view name) const;
   [[nodiscard]] static std::vector<std::string> node_field_names();
   [[nodiscard]] static std::vector<std::string> element_field_names();
-  [[nodiscard]] const History& history() const;                            ///< empty without RunSettings::record_history
+  [[nodiscard]] const History& history() const;                            ///< without RunSettings::record_history it has no columns
   [[nodiscard]] std::span<const Diagnostic> initial_findings() const;      ///< of reading and of the inspection, as text
   [[nodiscard]] std::span<const ContactFinding> contact_findings() const;  ///< of the inspection before the run
   [[nodiscard]] std::span<const RunFinding> findings() const;              ///< of the run so far

@@ -103,14 +103,23 @@ void sync_file(const std::filesystem::path& path) {
   if (error != 0) fail("write", path, error);
 }
 
+std::filesystem::path file_place(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(path, error))) return path;
+  if (std::filesystem::is_regular_file(path, error)) return std::filesystem::canonical(path);
+  throw RunError(fmt::format("cannot write '{}': what is there is not a file", path.string()));
+}
+
 void DurableFile::replace(const std::filesystem::path& previous) {
   int error = ::fsync(descriptor_) != 0 && errno != EINVAL ? errno : 0;
   if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) error = errno;
-  // A second name, not a rename: `path` names a complete file all the time.
-  if (error == 0 && ::unlink(previous.c_str()) != 0 && errno != ENOENT) error = errno;
-  if (error == 0 && ::link(path_.c_str(), previous.c_str()) != 0 && errno != ENOENT) {
-    // No hard links here: between these two renames only `previous` names a file.
-    if (::rename(path_.c_str(), previous.c_str()) != 0) error = errno;
+  if (!previous.empty()) {
+    // A second name, not a rename: `path` names a complete file all the time.
+    if (error == 0 && ::unlink(previous.c_str()) != 0 && errno != ENOENT) error = errno;
+    if (error == 0 && ::link(path_.c_str(), previous.c_str()) != 0 && errno != ENOENT) {
+      // No hard links here: between these two renames only `previous` names a file.
+      if (::rename(path_.c_str(), previous.c_str()) != 0) error = errno;
+    }
   }
   if (error == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) error = errno;
   if (error != 0) {

@@ -82,15 +82,19 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 /// Brings a file's content to the disk (fsync): it survives the machine, not only the process. @throws RunError
 void sync_file(const std::filesystem::path& path);
 
+/// Where a file is written whose name a user gave: the file that symbolic links lead to.
+/// @throws RunError when there is something else than a file: a folder, a device, a link that leads nowhere
+[[nodiscard]] std::filesystem::path file_place(const std::filesystem::path& path);
+
 /// A file that is written in pieces beside its place, and survives the machine once it is in it.
 class DurableFile : public PendingFile {
  public:
   /// @throws RunError
   explicit DurableFile(std::filesystem::path path) : PendingFile(std::move(path)) {}
 
-  /// Once, at the end: content, then name. What was at the path is kept under `previous`; at every moment at least one of the two names a
-  /// complete file. @throws RunError; what was there stays
-  void replace(const std::filesystem::path& previous);
+  /// Once, at the end: content, then name. What was at the path is kept under `previous`, unless that is empty; at every moment at least
+  /// one of the two names a complete file. @throws RunError; what was there stays
+  void replace(const std::filesystem::path& previous = {});
 };
 
 /// Whole file. @throws RunError

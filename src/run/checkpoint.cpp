@@ -150,11 +150,7 @@ void Run::Impl::keep_checkpoint() {
   }
 }
 
-void Run::save(const std::filesystem::path& checkpoint) {
-  std::filesystem::path previous = checkpoint;
-  previous.replace_filename(checkpoint.stem().string() + "_previous" + checkpoint.extension().string());
-  impl_->save(checkpoint, previous);
-}
+void Run::save(const std::filesystem::path& checkpoint) { impl_->save(output::file_place(checkpoint), {}); }
 
 Run Run::load(const Model& model, const std::filesystem::path& checkpoint, const RunSettings& settings) {
   try {

@@ -2,10 +2,13 @@
 
 namespace abut::run {
 
+MemoryHistory::MemoryHistory(History& history, const model::Model& model) : history_(history) {
+  history_.names = {"time"};
+  for (const output::HistoryColumn& column : output::make_history_columns(model, {}).columns) history_.names.push_back(column.name);
+}
+
 void MemoryHistory::begin(const cycle::Snapshot& first) {
   columns_ = output::make_history_columns(*first.model, output::ElementLookup(*first.model, first.groups)).columns;
-  history_.names = {"time"};
-  for (const output::HistoryColumn& column : columns_) history_.names.push_back(column.name);
 }
 
 void MemoryHistory::cycle(const cycle::Snapshot& now) {

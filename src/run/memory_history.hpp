@@ -12,7 +12,8 @@ namespace abut::run {
 /// Appends a row to the host's History whenever `history_due`: the columns of NAME_th.csv.
 class MemoryHistory final : public cycle::Sink {
  public:
-  explicit MemoryHistory(History& history) : history_(history) {}
+  /// The columns have their names from the start.
+  MemoryHistory(History& history, const model::Model& model);
   void begin(const cycle::Snapshot& first) override;
   void cycle(const cycle::Snapshot& now) override;
   void end(const cycle::Outcome&) override {}

@@ -119,7 +119,7 @@ void Run::Impl::open_outputs() {
     call_logs_[k].open(path, std::ios::binary);
     if (!call_logs_[k]) throw RunError("cannot write '" + path.string() + "'");
   }
-  if (settings.record_history) memory_ = sinks.add(std::make_unique<run::MemoryHistory>(history));
+  if (settings.record_history) memory_ = sinks.add(std::make_unique<run::MemoryHistory>(history, model.impl().model));
   if (settings.progress) sinks.add(std::make_unique<output::Progress>(output::console_progress()));
 }
 

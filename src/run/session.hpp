@@ -59,6 +59,7 @@ struct Run::Impl {
 
   bool advance();
   const Outcome& finish(Outcome::Kind kind, std::string_view message);
+  /// @param previous  keeps what was at `path`; empty: that goes
   void save(const std::filesystem::path& path, const std::filesystem::path& previous);
   [[nodiscard]] std::vector<PhaseTime> timings() const;
 

@@ -179,17 +179,48 @@ TEST(Restart, OtherModelsRulesAndFilesAreRefusedByName) {
   EXPECT_NE(message_of_load(base_model(), file, settings).find("not a checkpoint of abut"), std::string::npos);
 }
 
-TEST(Restart, ASecondCheckpointKeepsTheFirst) {
+std::string message_of_save(abut::Run& run, const std::filesystem::path& file) {
+  try {
+    run.save(file);
+    return {};
+  } catch (const RunError& error) { return error.what(); }
+}
+
+/// A caller's folder: save() writes the file that it was given and touches no other.
+TEST(Restart, ACheckpointOfTheCallerReplacesOneFileOnly) {
   const Folder folder;
   const Model model = base_model();
   const RunSettings settings = settings_of(Rules::standard);
   abut::Run run(model, settings);
+  const std::vector<std::byte> own(3, std::byte{7});
+  put(folder.file("a_previous.rst"), own);
   run.advance();
   run.save(folder.file("a.rst"));
   run.advance();
   run.save(folder.file("a.rst"));
   EXPECT_EQ(abut::Run::load(model, folder.file("a.rst"), settings).cycle(), 2);
-  EXPECT_EQ(abut::Run::load(model, folder.file("a_previous.rst"), settings).cycle(), 1);
+  EXPECT_EQ(output::read_bytes(folder.file("a_previous.rst")), own);
+  std::filesystem::create_symlink("a.rst", folder.file("link"));
+  run.advance();
+  run.save(folder.file("link"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
+  EXPECT_EQ(abut::Run::load(model, folder.file("a.rst"), settings).cycle(), 3);
+}
+
+TEST(Restart, ACheckpointTakesThePlaceOfNothingButAFile) {
+  const Folder folder;
+  abut::Run run(base_model(), settings_of(Rules::standard));
+  run.advance();
+  std::filesystem::create_directory(folder.file("folder"));
+  std::filesystem::create_symlink("folder", folder.file("link"));
+  std::filesystem::create_symlink("none", folder.file("nowhere"));
+  for (const char* name : {"folder", "link", "nowhere"}) {
+    const auto file = folder.file(name);
+    EXPECT_EQ(message_of_save(run, file), "cannot write '" + file.string() + "': what is there is not a file");
+  }
+  EXPECT_TRUE(std::filesystem::is_directory(folder.file("folder")));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")) && std::filesystem::is_symlink(folder.file("nowhere")));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.file("")), std::filesystem::directory_iterator()), 3);
 }
 
 /// Damaged files: every one is refused with a message, whatever was changed.
