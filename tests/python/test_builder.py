@@ -172,11 +172,72 @@ def test_plastic_shells_and_triangles_and_tetrahedra():
     (lambda b: b.engine(0.0), ValueError, "expected a positive time"),
     (lambda b: b.engine_text(), ValueError, "call engine"),
     (lambda b: b.card("GRAV"), ValueError, "begins with its keyword line"),
+    (lambda b: b.engine(1.0, cards_text="junk"), ValueError, "cards_text is 'junk', but a block begins with its keyword line"),
+    (lambda b: b.engine(1.0, step_scale=np.nan), ValueError, "step_scale is nan, expected a finite number"),
+    (lambda b: b.engine(1.0, print_every=1.5), TypeError, "print_every is 1.5, expected an integer"),
+    (lambda b: b.elastic(density=np.inf, young=1.0, poisson=0.3), ValueError, "density is inf, expected a finite number"),
+    (lambda b: b.elastic(density=1.0, young=None, poisson=0.3), TypeError, "young is None, expected a number"),
+    (lambda b: b.johnson_cook(density=1, young=1, poisson=0, yield_stress=np.nan), ValueError, "yield_stress is nan"),
+    (lambda b: b.shell_property(np.nan), ValueError, "thickness is nan"),
+    (lambda b: b.shell_property(1.0, points=2.5), TypeError, "points is 2.5, expected an integer"),
+    (lambda b: b.shell_property(1.0, hourglass=(0, np.nan, 0)), ValueError, r"hourglass\[1\] is nan"),
+    (lambda b: b.solid_property(qa=np.inf), ValueError, "qa is inf"),
+    (lambda b: b.function([0, 1], [0, np.nan]), ValueError, "x and y: point 1 is not finite"),
+    (lambda b: b.contact(1.7, 2), TypeError, "first is 1.7, expected an integer"),
+    (lambda b: b.contact(1, 2, gap=np.nan), ValueError, "gap is nan"),
+    (lambda b: b.contact_nodes([1], 1.5), TypeError, "surface is 1.5, expected an integer"),
+    (lambda b: b.contact_both_sides(1, gap=np.inf), ValueError, "gap is inf"),
+    (lambda b: b.part(0, 1), ValueError, "prop is 0: ids are positive"),
+    (lambda b: b.surface(parts=[1.5]), TypeError, "parts holds float64"),
+    (lambda b: b.rigid_body(1, [2], mass=np.nan), ValueError, "mass is nan"),
+    (lambda b: b.imposed_velocity([1], "X", 1, birth=np.nan), ValueError, "birth is nan"),
+    (lambda b: b.load([1], "X", "1"), TypeError, "function is '1', expected an integer"),
+    (lambda b: b.fix([10_000_000_012]), ValueError, "nodes holds 10000000012: ids on a card have at most 10 digits"),
+    (lambda b: b.fix(np.array([2**64 - 1], dtype=np.uint64)), ValueError, "at most 10 digits"),
+    (lambda b: b.load([1], "X", 10_000_000_012), ValueError, "10000000012 has 11 characters, at most 10 fit"),
+    (lambda b: (b.nodes([[0, 0, 0]], ids=[9_999_999_999]), b.nodes([[0, 0, 0]])), ValueError, "10000000000 has 11 characters"),
+    (lambda b: b.history(nodes=[1], variables="DEF"), TypeError, r"variables is 'DEF', expected a list of names, e.g. \['DEF'\]"),
+    (lambda b: b.history(nodes=[1], variables=["ELEVENCHARS"]), ValueError, "variables holds 'ELEVENCHARS', expected names of 1 to 10"),
+    (lambda b: b.history(nodes=[1], variables=[]), ValueError, "variables is empty"),
     (lambda b: abut.ModelBuilder("two words"), ValueError, "must not be empty nor hold blanks"),
 ])
 def test_arguments_that_make_no_card(call, error, words):
     with pytest.raises(error, match=words):
         call(builder())
+
+
+@pytest.mark.parametrize("call", [
+    lambda b: b.part(1, 1, shells=[[1, 2, 3, 4]], bricks=[[1, 2]]),
+    lambda b: b.part(1, 1, title="/NODE"),
+    lambda b: b.nodes([[0, 0, 0]], ids=[10_000_000_012]),
+    lambda b: b.load([1], "Q", 1),
+    lambda b: b.velocity([1], [1, 2]),
+    lambda b: b.rigid_body(1, [2], id=0),
+    lambda b: b.imposed_velocity([1], "X", 1, scale=np.nan),
+    lambda b: b.history(nodes=[1], parts=[0]),
+    lambda b: b.engine(2.0, animation_interval=np.nan),
+])
+def test_a_refused_call_leaves_the_model_as_it_was(call):
+    b = two_blocks()
+    starter, engine = b.starter_text(), b.engine_text()
+    with pytest.raises((ValueError, TypeError)):
+        call(b)
+    assert (b.starter_text(), b.engine_text()) == (starter, engine)
+    assert b.nodes([[5.0, 5.0, 5.0]]).tolist() == [17] and b.group([17]) == two_blocks().group([1]) and b.part(1, 1) == 3
+
+
+def test_every_variable_of_the_history_is_a_column():
+    """More than ten names take several lines of the card."""
+    b = builder()
+    ids = one_cube(b)
+    names = [f"{kind}{axis}" for kind in ("D", "V", "A", "") for axis in "XYZ"]
+    sums = ["IE", "KE", "XMOM", "YMOM", "ZMOM", "MASS", "HE", "ERODED", "RKE", "VX", "VY", "VZ"]
+    b.history(nodes=ids[:1], variables=names)
+    b.history(parts=[1], variables=sums)
+    b.engine(1e-3)
+    columns = abut.Run(b.build()).history.names
+    assert [name for name in names if f"NODE/1/{name}" not in columns] == []
+    assert [name for name in sums if f"PART/1/{name}" not in columns] == []
 
 
 def test_what_the_reader_refuses():

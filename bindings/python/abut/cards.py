@@ -1,6 +1,8 @@
 """Cards of a deck: fields of 10 and 20 columns from Python values and arrays, checked."""
 from __future__ import annotations
 
+import math
+import operator
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -10,8 +12,8 @@ DIRECTIONS = ("X", "Y", "Z", "XX", "YY", "ZZ")
 
 
 def real(value: float) -> str:
-    """A number in 20 columns, with as many digits as fit: at least 13, all 17 for most."""
-    text = repr(float(value))
+    """A finite number in 20 columns, with as many digits as fit: at least 13, all 17 for most."""
+    text = repr(finite(value, "a number of the card"))
     digits = 16
     while len(text) > 20:
         text = f"{float(value):.{digits}g}"
@@ -23,8 +25,42 @@ def reals(*values: float) -> str:
     return "".join(real(value) for value in values)
 
 
+def integer(value: int, name: str) -> int:
+    try:
+        return int(operator.index(value))
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}, expected an integer") from None
+
+
 def integers(*values: int | str) -> str:
-    return "".join(f"{value:>10}" for value in values)
+    """Integers in 10 columns each; "" leaves a field empty."""
+    return "".join(_field(value) for value in values)
+
+
+def _field(value: int | str) -> str:
+    text = str(value) if type(value) is int or isinstance(value, str) else str(integer(value, "a field of the card"))
+    if len(text) > 10:
+        raise ValueError(f"{text} has {len(text)} characters, at most 10 fit in a field of a card")
+    return f"{text:>10}"
+
+
+def check_ids(**ids: int) -> None:
+    """Positive integers, by the names of the arguments."""
+    for name, value in ids.items():
+        if integer(value, name) < 1:
+            raise ValueError(f"{name} is {value}: ids are positive")
+
+
+def check_integers(**values: int) -> None:
+    """Integers, by the names of the arguments."""
+    for name, value in values.items():
+        integer(value, name)
+
+
+def check_finite(**values: float) -> None:
+    """Finite numbers, by the names of the arguments."""
+    for name, value in values.items():
+        finite(value, name)
 
 
 def checked_text(value: str, name: str) -> str:
@@ -37,9 +73,13 @@ def checked_text(value: str, name: str) -> str:
 
 
 def finite(value: float, name: str) -> float:
-    if not np.isfinite(value):
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}, expected a number") from None
+    if not math.isfinite(number):
         raise ValueError(f"{name} is {value}, expected a finite number")
-    return float(value)
+    return number
 
 
 def vectors(value: ArrayLike, name: str) -> NDArray[np.float64]:
@@ -74,13 +114,35 @@ def id_array(value: ArrayLike, name: str, columns: Sequence[int] = ()) -> NDArra
         raise ValueError(f"{name} has shape {array.shape}, expected (K,)")
     if array.size > 0 and array.min() < 1:
         raise ValueError(f"{name} holds {array.min()}: ids are positive (nodes() returns those of its nodes)")
+    if array.size > 0 and len(str(array.max())) > 10:
+        raise ValueError(f"{name} holds {array.max()}: ids on a card have at most 10 digits")
     return array.astype(np.int64)
 
 
-def in_rows(ids: Iterable[int], width: int = 10) -> list[str]:
-    """Ids, ten a card."""
-    listed = list(ids)
+def in_rows(fields: Iterable[int | str], width: int = 10) -> list[str]:
+    """Ids or names, ten a card."""
+    listed = list(fields)
     return [integers(*listed[k:k + width]) for k in range(0, len(listed), width)]
+
+
+def names(values: Sequence[str], name: str) -> list[str]:
+    """Words that fit in a field of a card, at least one."""
+    if isinstance(values, str):
+        raise TypeError(f"{name} is {values!r}, expected a list of names, e.g. [{values!r}]")
+    listed = list(values)
+    for word in listed:
+        if not (isinstance(word, str) and word.isascii() and word.isidentifier() and len(word) <= 10):
+            raise ValueError(f"{name} holds {word!r}, expected names of 1 to 10 letters, digits and _")
+    if not listed:
+        raise ValueError(f"{name} is empty, expected at least one name")
+    return listed
+
+
+def block(text: str, name: str) -> list[str]:
+    """Lines of whole blocks: the first is a keyword line."""
+    if not text.startswith("/"):
+        raise ValueError(f"{name} is {text!r}, but a block begins with its keyword line, e.g. '/GRAV/1'")
+    return text.rstrip("\n").split("\n")
 
 
 def direction(value: str, rotations: bool = True) -> str:

@@ -28,17 +28,17 @@ class History(Mapping[str, NDArray[np.float64]]):
 
     @staticmethod
     def read(path: str | os.PathLike[str]) -> History:
-        """Reads NAME_th.csv, or the one of a run folder."""
+        """Reads NAME_th.csv, or the one of a run folder; also while it is written: a last line without its end is left out."""
         file = Path(path)
         if file.is_dir():
             found = sorted(file.glob("*_th.csv"))
             if len(found) != 1:
                 raise FileNotFoundError(f"{file} holds {len(found)} files *_th.csv, expected one")
             file = found[0]
-        with file.open(newline="", encoding="utf-8") as stream:
-            rows = csv.reader(stream)
-            names: list[str] = next(rows, [])
-            values = [[float(value) for value in row] for row in rows if len(row) == len(names)]
+        text = file.read_text(encoding="utf-8")
+        rows = csv.reader(text.rpartition("\n")[0].split("\n"))  # the last line of a run that goes on may not be whole
+        names: list[str] = next(rows, [])
+        values = [[float(value) for value in row] for row in rows if len(row) == len(names)]
         return History(names, np.array(values, dtype=np.float64).reshape(len(values), len(names)))
 
     @property
