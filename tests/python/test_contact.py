@@ -6,27 +6,8 @@ import numpy as np
 import pytest
 
 from abut import contact
+from contact_scenes import CLEARANCE, FACET, GAP, interface, sheet, squares
 from support import ROOT, held_bytes
-
-GAP, CLEARANCE, FACET = 0.2, 0.1, 10.0
-
-
-def squares(clearance=CLEARANCE):
-    """Two unit squares that face each other. @returns x (8, 3), first and second surface"""
-    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
-    x = np.vstack([np.column_stack([square, np.full(4, z)]) for z in (0.0, clearance)])
-    return x, contact.Surface([[0, 1, 2, 3]]), contact.Surface([[4, 7, 6, 5]])
-
-
-def interface(law="constant", switch_correction=False, lower_size=1.0, **options):
-    x, lower, upper = squares()
-    x[:4, :2] = 0.5 + lower_size * (x[:4, :2] - 0.5)
-    rules = contact.Rules(law=law, switch_correction=switch_correction)
-    made = contact.Interface.two_surfaces(lower, upper, contact.Options(gap=GAP, rules=rules, **options))
-    for side in (0, 1):
-        made.set_surface(side, stiffness=[FACET])
-    return x, made
-
 
 def evaluated(made, x, v=None, **arguments):
     force, stiffness = np.zeros((len(x), 3)), np.zeros(len(x))
@@ -65,54 +46,6 @@ def test_forces_are_added_into_the_hosts_arrays():
     made.evaluate(x, np.zeros_like(x), force, k)
     np.testing.assert_allclose(force, alone + 5.0)
     np.testing.assert_allclose(k, stiffness + 7.0)
-
-
-@pytest.mark.parametrize("name, value, error, words", [
-    ("force", np.zeros((8, 3), dtype=np.float32), TypeError, "force is added to: it must be a float64 array"),
-    ("force", [[0.0] * 3] * 8, TypeError, "force is added to: it must be a float64 array"),
-    ("force", np.zeros((3, 8)).T, TypeError, "force is added to: it must be in C order"),
-    ("force", np.zeros((7, 3)), ValueError, r"force has shape \(7, 3\), expected \(8, 3\)"),
-    ("stiffness", np.zeros((8, 1)), ValueError, r"stiffness has shape \(8, 1\), expected \(8,\)"),
-    ("x", np.zeros((5, 3)), ValueError, "x has 5 rows, but the surfaces name node 7"),
-    ("x", np.full((8, 3), np.nan), ValueError, "x: row 0 is not finite"),
-    ("x", np.zeros((8, 3), dtype=complex), TypeError, "x does not hold real numbers but complex128"),
-    ("v", np.zeros((9, 3)), ValueError, r"v has shape \(9, 3\), expected \(8, 3\)"),
-    ("mass", np.ones(3), ValueError, r"mass has shape \(3,\), expected \(8,\)"),
-])
-def test_arrays_that_are_refused(name, value, error, words):
-    x, made = interface()
-    arguments = dict(x=x, v=np.zeros_like(x), force=np.zeros((8, 3)), stiffness=np.zeros(8), mass=None)
-    made.search(x, arguments["v"])
-    arguments[name] = value
-    with pytest.raises(error, match=words):
-        made.evaluate(**arguments)
-
-
-def test_a_read_only_force_is_refused():
-    x, made = interface()
-    force = np.zeros((8, 3))
-    force.flags.writeable = False
-    with pytest.raises(TypeError, match="force is added to, but it is read-only"):
-        made.step(x, np.zeros_like(x), force, np.zeros(8), dt=1e-3)
-
-
-@pytest.mark.parametrize("call, words", [
-    (lambda: contact.Surface([[0, 1, 1, 0]]), "facet"),
-    (lambda: contact.Surface([[0, 1]]), r"facets has shape \(1, 2\), expected \(F, 3\) or \(F, 4\)"),
-    (lambda: contact.Surface([[0, 1, -2]]), "-2 is not a node index"),
-    (lambda: contact.Options(gap=-1.0), "gap must be 0 or more"),
-    (lambda: contact.Options(initial="push"), "initial is 'push', expected one of 'keep'"),
-    (lambda: contact.Rules(law="soft"), "law is 'soft'"),
-    (lambda: contact.BothSidesOptions(gap=0.0), "gap must be positive"),
-    (lambda: interface()[1].commit(1e-3), "commit"),
-    (lambda: interface()[1].set_surface(2), "side is 2"),
-    (lambda: interface()[1].set_surface(0, stiffness=[1.0, 2.0]), r"stiffness has shape \(2,\), expected \(1,\)"),
-    (lambda: interface()[1].restore(b"not a history, but long enough"), ""),
-    (lambda: contact.Interface.two_surfaces(contact.Surface([[0, 1, 2]]), contact.Surface([[2, 3, 4]])), ""),
-])
-def test_values_that_are_refused(call, words):
-    with pytest.raises((ValueError, RuntimeError), match=words):
-        call()
 
 
 def flight(made, x, steps, mass, dt, one_call=False, start=None):
@@ -163,15 +96,6 @@ def test_one_call_is_three_verbs():
         x, made = interface(law="stiffening", friction=0.2)
         states.append(flight(made, x, 300, mass=0.1, dt=1e-3, one_call=one_call)[:2])
     np.testing.assert_array_equal(states[1], states[0])
-
-
-def sheet(first, n, z, up):
-    """n x n nodes over the unit square from index `first` on, and their quadrilaterals, normals up or down."""
-    side = np.linspace(0, 1, n)
-    x = np.array([(a, b, z) for b in side for a in side])
-    corner = first + np.arange(n * n).reshape(n, n)
-    quads = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
-    return x, quads if up else quads[:, ::-1]
 
 
 def test_threads_do_not_matter():

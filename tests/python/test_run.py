@@ -61,6 +61,35 @@ def test_a_callback_sees_every_nth_cycle_and_can_stop():
     assert run.state_hash == reference_hash(60)
 
 
+@pytest.mark.parametrize("answer, stops", [(None, False), (True, False), (np.bool_(True), False), (False, True), (np.bool_(False), True)])
+def test_a_callback_says_whether_the_run_goes_on(answer, stops):
+    run = run_of()
+    run.advance_to(1e-4, lambda r: answer)
+    assert (run.cycle == 1) == stops
+
+
+@pytest.mark.parametrize("answer, kind", [(0, "int"), (1.5, "float"), ("no", "str"), (np.array([False]), "numpy.ndarray"), (np.int64(0), "numpy.int64")])
+def test_other_answers_of_a_callback_are_refused(answer, kind):
+    run = run_of()
+    with pytest.raises(TypeError, match=f"a value of type {kind}, expected None or True to go on, False to stop"):
+        run.advance_to_end(lambda r: answer)
+    assert run.cycle == 1 and not run.is_over
+    run.advance(59)
+    assert run.state_hash == reference_hash(60)
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda run: run.advance(-1), "cycles must be 0 or more"),
+    (lambda run: run.advance_to(float("nan")), "time must be a number"),
+    (lambda run: run.advance_to_end(every=0), "every must be 1 or more"),
+])
+def test_ways_that_lead_nowhere_are_refused(call, words):
+    run = run_of()
+    with pytest.raises(ValueError, match=words):
+        call(run)
+    assert run.cycle == 0
+
+
 def test_an_exception_of_a_callback_leaves_the_run_where_it_is():
     run = run_of()
 
@@ -167,6 +196,25 @@ def test_history_is_what_the_file_says(tmp_path):
     assert json.loads((tmp_path / "out" / "run.json").read_text())["outcome"]
 
 
+def test_history_before_the_first_cycle_has_columns_and_no_rows():
+    run = run_of()
+    before = run.history
+    assert before.table.shape == (0, len(before.names)) and before.time.shape == (0,)
+    run.advance()
+    assert run.history.names == before.names and len(run.history.time) == 1
+    with pytest.raises(RuntimeError, match="record_history=False"):
+        abut.Run(two_blocks().build(), record_history=False).history
+
+
+def test_a_row_of_the_history_without_its_end_is_left_out(tmp_path):
+    """The file of a run that was killed, or goes on: the last line may be cut inside a number."""
+    file = tmp_path / "a_th.csv"
+    file.write_text("time,GLOBAL/KE\n0,1\n0.5,2.25\n")
+    np.testing.assert_array_equal(abut.History.read(file).table, [[0, 1], [0.5, 2.25]])
+    file.write_text("time,GLOBAL/KE\n0,1\n0.5,2")
+    np.testing.assert_array_equal(abut.History.read(tmp_path).table, [[0, 1]])
+
+
 def test_interfaces_and_fields():
     run = run_of()
     run.advance_to_end(lambda r: r.interfaces[0].in_contact == 0)
@@ -220,6 +268,20 @@ def test_a_checkpoint_goes_on_with_the_same_bits(tmp_path):
         abut.Run.load(two_blocks(friction=0.3).build(), tmp_path / "here")
     with pytest.raises(abut.RunError):
         abut.Run.load(model, tmp_path / "not there")
+
+
+def test_a_checkpoint_touches_no_other_file(tmp_path):
+    run = run_of()
+    for name in ("notes.txt", "notes_previous.txt"):
+        (tmp_path / name).write_text("mine")
+    run.advance()
+    run.save(tmp_path / "notes.txt")
+    assert (tmp_path / "notes_previous.txt").read_text() == "mine"
+    assert abut.Run.load(run.model, tmp_path / "notes.txt").cycle == 1
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(abut.RunError, match="what is there is not a file"):
+        run.save(tmp_path / "folder")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["folder", "notes.txt", "notes_previous.txt"]
 
 
 def test_a_run_folder_is_resumed(tmp_path):
@@ -350,6 +412,7 @@ def test_a_file_in_the_way_is_a_run_error(tmp_path):
 
 @pytest.mark.parametrize("arguments, words", [
     (dict(threads=-1), "threads must be 0"),
+    (dict(threads=4097), r"threads must be 0 \(all\) to 4096"),
     (dict(hash_every=-1), "hash_every must be 0"),
     (dict(checkpoint_every=-1), "checkpoint_every must be 0"),
     (dict(rules="other"), "rules is 'other'"),
@@ -373,17 +436,17 @@ def test_recorded_contact_is_replayed(tmp_path):
     assert plain.state_hash == run.state_hash
 
 
-@pytest.mark.parametrize("arguments, words", [
-    (dict(record_contact={1: None}), "record_contact needs an output folder"),
-    (dict(record_contact={9: None}, output=True), "9"),
-    (dict(interfaces={9: "start=1"}), "9"),
-    (dict(interfaces={1: "law=soft"}), "law is 'soft', expected one of stiffening, constant"),
-    (dict(interfaces={"some": "law=constant"}), "neither an interface id nor 'all'"),
+@pytest.mark.parametrize("arguments, error, words", [
+    (dict(record_contact={1: None}), ValueError, "record_contact needs an output folder"),
+    (dict(record_contact={9: None}, output=True), abut.RunError, "9"),
+    (dict(interfaces={9: "start=1"}), abut.RunError, "9"),
+    (dict(interfaces={1: "law=soft"}), abut.RunError, "law is 'soft', expected one of stiffening, constant"),
+    (dict(interfaces={"some": "law=constant"}), abut.RunError, "neither an interface id nor 'all'"),
 ])
-def test_interfaces_that_are_not_there(tmp_path, arguments, words):
+def test_interfaces_that_are_not_there(tmp_path, arguments, error, words):
     if "output" in arguments:
         arguments = {**arguments, "output": tmp_path}
-    with pytest.raises((ValueError, RuntimeError), match=words):
+    with pytest.raises(error, match=words):
         abut.Run(two_blocks().build(), **arguments)
 
 

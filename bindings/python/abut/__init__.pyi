@@ -18,7 +18,7 @@ Rules = Literal["standard", "reference"]
 Law = Literal["stiffening", "constant"]
 ElementKind = Literal["shell4", "shell3", "brick", "tetra"]
 Severity = Literal["note", "warning", "error"]
-Callback = Callable[[Run], bool | None]
+Callback = Callable[[Run], bool | np.bool_ | None]
 
 def version() -> str: ...
 

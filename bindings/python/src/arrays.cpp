@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -34,7 +35,7 @@ py::array as_array(const ArrayLike& value, const char* name) {
   auto array = py::array::ensure(value.value);
   if (!array) {
     PyErr_Clear();
-    throw py::type_error(std::string(name) + " is not an array");
+    throw py::type_error(std::string(name) + " cannot be made an array: its rows have different lengths, or it holds no numbers");
   }
   return array;
 }
@@ -61,6 +62,14 @@ py::array as_integers(const ArrayLike& value, const char* name) {
   const char kind = any.dtype().kind();
   if (kind != 'i' && kind != 'u' && any.size() > 0) {
     throw py::type_error(std::string(name) + " does not hold integers but " + py::cast<std::string>(py::str(any.dtype())));
+  }
+  if (kind == 'u' && any.itemsize() == sizeof(std::uint64_t)) {
+    const py::array_t<std::uint64_t, py::array::c_style | py::array::forcecast> large(any);
+    const auto* first = large.data();
+    const auto* largest = std::max_element(first, first + large.size());
+    if (large.size() > 0 && *largest > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
+      throw py::value_error(std::string(name) + ": " + std::to_string(*largest) + " is too large for an id or an index");
+    }
   }
   return IntegerArray(any);
 }
@@ -114,6 +123,15 @@ Reals reals(const ArrayLike& value, const char* name, py::ssize_t count) {
 Reals reals(const std::optional<ArrayLike>& value, const char* name, py::ssize_t count) {
   return value ? reals(*value, name, count) : Reals{};
 }
+
+Reals masses(const std::optional<ArrayLike>& value, py::ssize_t count) {
+  Reals mass = reals(value, "mass", count);
+  const auto negative = std::find_if(mass.span.begin(), mass.span.end(), [](double m) { return m < 0.0; });
+  if (negative != mass.span.end()) { throw py::value_error("mass: row " + std::to_string(negative - mass.span.begin()) + " is negative"); }
+  return mass;
+}
+
+py::ssize_t dimensions(const ArrayLike& value, const char* name) { return as_array(value, name).ndim(); }
 
 std::vector<Id> ids(const ArrayLike& value, const char* name) {
   const py::array array = as_integers(value, name);

@@ -44,6 +44,10 @@ inline constexpr py::ssize_t any_count = -1;
 [[nodiscard]] Reals reals(const ArrayLike& value, const char* name, py::ssize_t count = any_count);
 /// Nothing gives an empty span.
 [[nodiscard]] Reals reals(const std::optional<ArrayLike>& value, const char* name, py::ssize_t count = any_count);
+/// Nodal masses: not negative.
+[[nodiscard]] Reals masses(const std::optional<ArrayLike>& value, py::ssize_t count);
+/// Number of dimensions of what numpy makes of it. @throws TypeError when that is no array
+[[nodiscard]] py::ssize_t dimensions(const ArrayLike& value, const char* name);
 /// Integers that are not negative and fit.
 [[nodiscard]] std::vector<Index> indices(const ArrayLike& value, const char* name);
 [[nodiscard]] std::vector<Id> ids(const ArrayLike& value, const char* name);

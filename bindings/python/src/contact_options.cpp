@@ -1,5 +1,6 @@
 // Options and results of an interface.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "abut/contact/both_sides.hpp"
@@ -97,10 +98,10 @@ void bind_rules(py::module_& m) {
 Options one_sided(double stiffness_scale, double friction, const FrictionLaw& law, const FrictionFilter& filter, double tangential_ratio,
                   double gap, bool automatic_gap, double birth, double death, double start_duration, double shear_limit, double damping,
                   const std::string& initial, double depth_limit, const Rules& rules) {
-  check(stiffness_scale > 0.0, "stiffness_scale", "positive");
+  check(stiffness_scale > 0.0 && std::isfinite(stiffness_scale), "stiffness_scale", "positive");
   check(friction >= 0.0, "friction", "0 or more");
   check(tangential_ratio > 0.0, "tangential_ratio", "positive");
-  check(gap >= 0.0, "gap", "0 or more");
+  check(gap >= 0.0 && std::isfinite(gap), "gap", "0 or more");
   check(death > birth, "death", "later than birth");
   check(start_duration >= 0.0, "start_duration", "0 or more");
   check(shear_limit > 0.0, "shear_limit", "positive");
@@ -169,7 +170,7 @@ BothSides two_sided(double gap, const std::string& stiffness, double stiffness_m
                     const std::optional<ArrayLike>& node_gap, const std::optional<ArrayLike>& facet_gap, double gap_max,
                     const std::optional<ArrayLike>& node_size, const std::optional<ArrayLike>& facet_size, double step_minimum,
                     double step_scale, bool reference_step, bool switch_correction, bool all_pieces) {
-  check(gap > 0.0, "gap", "positive");
+  check(gap > 0.0 && std::isfinite(gap), "gap", "positive and finite");
   check(stiffness_min >= 0.0 && stiffness_max >= stiffness_min, "stiffness_min", "0 or more and at most stiffness_max");
   check(friction >= 0.0, "friction", "0 or more");
   check(damping >= 0.0, "damping", "0 or more");

@@ -38,7 +38,7 @@ Side side_of(const ArrayLike& value, const std::optional<ArrayLike>& stiffness, 
   if (py::isinstance<Surface>(value.value)) {
     const auto all = value.value.cast<const Surface&>().facets();
     side.facets.assign(all.begin(), all.end());
-  } else if (py::array::ensure(value.value).ndim() == 1) {
+  } else if (dimensions(value, name) == 1) {
     side.nodes = indices(value, name);
   } else {
     side.facets = facets(value, name);
@@ -80,7 +80,7 @@ std::vector<Finding> inspect(const ArrayLike& first, const ArrayLike& second, co
   const std::size_t count = q.x.span.size();
   const auto rows = static_cast<py::ssize_t>(count);
   if (v) q.v = points(*v, "v", rows);
-  if (mass) q.mass = reals(*mass, "mass", rows);
+  q.mass = masses(mass, rows);
   q.side[0] = side_of(first, first_stiffness, first_outward, count, "first");
   q.side[1] = side_of(second, second_stiffness, second_outward, count, "second");
   look_at(q);
@@ -172,7 +172,8 @@ void bind_inspection(py::module_& m) {
   m.def("inspect", &inspect, "first"_a, "second"_a, "x"_a, py::kw_only(), "v"_a = py::none(), "mass"_a = py::none(), "gap"_a = 0.0,
         "stiffness_scale"_a = 0.2, "both_sides"_a = false, "element_step"_a = 0.0, "first_stiffness"_a = py::none(),
         "second_stiffness"_a = py::none(), "first_outward"_a = py::none(), "second_outward"_a = py::none(), "limits"_a = d,
-        "Everything that can be said of an interface before the first step, worst first. Bad geometry is found, not refused.\n\n"
+        "Everything that can be said of an interface before the first step, worst first. Bad geometry is found, not refused;\n"
+        "ValueError for arrays that do not fit and for a gap, stiffness_scale or element_step that is negative or not finite.\n\n"
         "first, second: a Surface, facets (F, 3 or 4), or nodes (S,). x, v: (N, 3). mass: (N,). gap: length.\n"
         "*_stiffness: (F,) own stiffness. *_outward: (F,) +1 normal out of the solid behind, -1 into it, 0 shell or not known.");
   m.def("facing", &facing, "first"_a, "second"_a, "x"_a, py::kw_only(), "gap"_a = 0.0, "first_outward"_a = py::none(),

@@ -206,7 +206,8 @@ void bind_model(py::module_& m) {
           "by id")
       .def("inspect", &inspect, py::kw_only(), "rules"_a = "standard", "interfaces"_a = InterfaceSettings{}, "with_step"_a = false,
            "Looks at the contacts with the masses, velocities and step of the first cycle.\n\n"
-           "rules: 'standard' or 'reference'; interfaces: as of Run(); with_step: the first time step too.")
+           "rules: 'standard' or 'reference'; interfaces: as of Run(); with_step: the first time step too.\n"
+           "Raises RunError for interfaces that are not there or settings that are none.")
       .def("__repr__", [](const Model& model) {
         return "<model '" + model.name() + "': " + std::to_string(model.node_ids().size()) + " nodes, " +
                std::to_string(model.element_count()) + " elements, " + std::to_string(model.interfaces().size()) + " interfaces>";

@@ -83,7 +83,9 @@ py::array element_field(const HeldRun& self, const std::string& kind_name, const
 
 py::object history(const HeldRun& self) {
   const History& h = self.idle().history();
-  return py::module_::import("abut.history").attr("History")(h.names, take(h.values, std::max<std::size_t>(1, h.names.size())));
+  if (h.names.empty()) throw std::runtime_error("the run keeps no history: it was made with record_history=False");
+  const auto columns = static_cast<py::ssize_t>(h.names.size());
+  return py::module_::import("abut.history").attr("History")(h.names, py::array(take(h.values)).reshape({py::ssize_t{-1}, columns}));
 }
 
 std::vector<NamedResult> interface_results(const HeldRun& self) {
@@ -158,7 +160,10 @@ void bind_answers(RunClass& run) {
            "The same for all elements of one kind: (E,) or (E, components); nan for deleted elements.")
       .def_static("node_field_names", &Run::node_field_names, "What node_field() knows.")
       .def_static("element_field_names", &Run::element_field_names, "What element_field() knows.")
-      .def_property_readonly("history", &history, "the time history so far: a History, a copy")
+      .def_property_readonly(
+          "history", &history,
+          "the time history so far: a History, a copy; without rows before the first cycle. Raises RuntimeError for a run made\n"
+          "with record_history=False.")
       .def_property_readonly(
           "initial_findings",
           [](const HeldRun& self) {

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -57,10 +58,20 @@ void look_for_signals(Run& run) {
   end_by_user(run, error);
 }
 
+/// What a callback says: nothing and true go on, false stops.
+bool goes_on(const py::object& answer) {
+  if (answer.is_none()) return true;
+  if (!py::isinstance<py::bool_>(answer) && !py::isinstance(answer, py::module_::import("numpy").attr("bool_"))) {
+    throw py::type_error(std::string("the callback returned a value of type ") + Py_TYPE(answer.ptr())->tp_name +
+                         ", expected None or True to go on, False to stop");
+  }
+  return py::cast<bool>(py::bool_(answer));
+}
+
 /// @return true: go on
 bool call_back(const py::object& self, Run& run, const py::function& callback) {
   try {
-    return !callback(self).is(py::handle(Py_False));
+    return goes_on(callback(self));
   } catch (py::error_already_set& error) {
     if (error.matches(PyExc_KeyboardInterrupt)) end_by_user(run, error);
     throw;
@@ -74,6 +85,8 @@ struct Limits {
 
 bool go_on(const py::object& self, const Limits& limits, const std::optional<py::function>& callback, int every) {
   if (every < 1) throw py::value_error("every must be 1 or more");
+  if (limits.cycles < 0) throw py::value_error("cycles must be 0 or more");
+  if (std::isnan(limits.time)) throw py::value_error("time must be a number, not nan");
   auto& held = self.cast<HeldRun&>();
   Run& run = held.idle();
   look_for_signals(run);
@@ -101,16 +114,18 @@ void bind_going(RunClass& run) {
   run.def(
          "advance", [](const py::object& self, std::int64_t cycles) { return go_on(self, {.cycles = cycles}, std::nullopt, 1); },
          "cycles"_a = 1,
-         "Cycles, one if not told. Returns False when the run is over.\n\nRaises RunError when it fails; its files are complete then.")
+         "Cycles, one if not told. Returns False when the run is over.\n\n"
+         "Raises RunError when it fails; its files are complete then. ValueError for less than 0 cycles.")
       .def(
           "advance_to",
           [](const py::object& self, double time, const std::optional<py::function>& callback, int every) {
             return go_on(self, {.time = time}, callback, every);
           },
           "time"_a, "callback"_a = py::none(), py::kw_only(), "every"_a = 1,
-          "Cycles until `time` is passed. Returns False when the run is over.\n\n"
-          "callback(run) is called after every n-th cycle (`every`); when it returns False the run stops there and can be continued, and\n"
-          "an exception of its leaves the run where it is. Ctrl-C ends the run with complete files and raises KeyboardInterrupt.\n"
+          "Cycles until `time` is passed; nothing when it has passed. Returns False when the run is over.\n\n"
+          "callback(run) is called after every n-th cycle (`every`); when it returns False (numpy's too) the run stops there and can be\n"
+          "continued, with True or None it goes on, and anything else raises TypeError. An exception of its leaves the run where it is.\n"
+          "Ctrl-C ends the run with complete files and raises KeyboardInterrupt. Raises ValueError for a time that is nan.\n"
           "The interpreter's lock is free but for callbacks.")
       .def(
           "advance_to_end",

@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "held_run.hpp"
 #include "model_names.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace abut::python {
 namespace {
@@ -21,10 +22,16 @@ using OptionalPath = std::optional<Path>;
 /// Interface id to the times from and to which its inputs are kept; none: all.
 using Recordings = std::map<Id, std::optional<std::pair<double, double>>>;
 
+void check_threads(int threads) {
+  if (threads < 0 || threads > parallel::most_threads) {
+    throw py::value_error("threads must be 0 (all) to " + std::to_string(parallel::most_threads));
+  }
+}
+
 RunSettings settings_of(int threads, const std::string& rules, const InterfaceSettings& interfaces, const OptionalPath& output,
                         int checkpoint_every, int hash_every, bool record_history, bool progress, bool allow_findings,
                         const Recordings& record_contact) {
-  if (threads < 0) throw py::value_error("threads must be 0 (all) or more");
+  check_threads(threads);
   if (hash_every < 0) throw py::value_error("hash_every must be 0 (never) or more");
   if (checkpoint_every < 0) throw py::value_error("checkpoint_every must be 0 (as the deck says) or more");
   RunSettings settings;
@@ -75,7 +82,7 @@ std::unique_ptr<HeldRun> load_run(const Model& model, const Path& checkpoint, in
 
 std::unique_ptr<HeldRun> resume_run(const Path& folder, const OptionalPath& deck, int threads, const std::optional<int>& checkpoint_every,
                                     bool record_history, bool progress) {
-  if (threads < 0) throw py::value_error("threads must be 0 (all) or more");
+  check_threads(threads);
   if (checkpoint_every && *checkpoint_every < 0) throw py::value_error("checkpoint_every must be 0 or more");
   ResumeSettings resumed;
   resumed.deck = deck.value_or(Path{});
@@ -95,14 +102,16 @@ void bind_making(RunClass& run) {
           "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0, "record_history"_a = true, "progress"_a = false,
           "allow_findings"_a = false, "record_contact"_a = Recordings{},
           "Inspects the contacts, makes the first state, opens the files.\n\n"
-          "threads: 0 for all. rules: 'standard' or 'reference'.\n"
+          "threads: at most 4096, 0 for all. rules: 'standard' or 'reference'.\n"
           "interfaces: {id or 'all': 'KEY=VALUE,...'}, settings of interfaces of TYPE3 and TYPE5 as --interface takes them: law, gap,\n"
           "initial, damping, depth, start.\n"
           "output: run folder; None: no files. checkpoint_every: cycles between checkpoints in it, 0: as /RFILE of the deck says.\n"
           "hash_every: cycles between state hashes in run.json. allow_findings: run although the inspection found errors.\n"
           "record_contact: {interface id: (from, to) or None} keeps all inputs of an interface between two times, or all the time, in\n"
           "NAME_contact_ID.calls in the run folder, for contact.replay().\n"
-          "Raises InputError when it did, RunError when a file cannot be written.")
+          "Raises InputError when it did; RunError when a file cannot be written, and when `interfaces` or\n"
+          "`record_contact` names an interface that is not there or asks for what it cannot have; ValueError for another argument out of\n"
+          "its range.")
       .def_static("load", &load_run, "model"_a, "checkpoint"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard",
                   "interfaces"_a = InterfaceSettings{}, "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0,
                   "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false, "record_contact"_a = Recordings{},
@@ -115,7 +124,8 @@ void bind_making(RunClass& run) {
           "folder: run folder or a checkpoint file in it. deck: Starter deck, None: where it was. checkpoint_every: None: as before.\n"
           "Raises RunError when there is no usable checkpoint, or it is of another model, version or deck; InputError of the deck.")
       .def("save", &save_run, "checkpoint"_a,
-           "Writes a checkpoint: the whole state, in a file that is complete or not there. Raises RunError when it cannot be written.");
+           "Writes a checkpoint: the whole state, in a file that is complete or not there, in the place of a file of that name.\n\n"
+           "Raises RunError when it cannot be written, or when something else than a file is there (a folder, a device).");
 }
 
 }  // namespace abut::python
