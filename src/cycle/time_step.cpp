@@ -119,11 +119,14 @@ void TimeStep::refuse_endless(const state::State& s, double step, const StepCont
   if (!stands_still && !endless) return;
   using Kind = StepController::Kind;
   const bool node = who.kind == Kind::node || who.kind == Kind::contact_node;
-  const std::string by = node ? fmt::format(" of node {}", who.id) : who.kind == Kind::interface ? fmt::format(" of interface {}", who.id) : "";
-  throw RunError(fmt::format("the time step {:.4g}{} does not get to the end time {:.6g} in {} (cycle {}, time {:.6g}): look at the mass, "
-                             "stiffness and gap there, and at the limits of /DT",
-                             step, by, control.t_end, stands_still ? "any number of cycles" : fmt::format("{:.0e} cycles", most_cycles),
-                             s.times.cycle, s.times.t));
+  const std::string by = node                          ? fmt::format(" of node {}", who.id)
+                         : who.kind == Kind::interface ? fmt::format(" of interface {}", who.id)
+                                                       : "";
+  throw RunError(
+      fmt::format("the time step {:.4g}{} does not get to the end time {:.6g} in {} (cycle {}, time {:.6g}): look at the mass, "
+                  "stiffness and gap there, and at the limits of /DT",
+                  step, by, control.t_end, stands_still ? "any number of cycles" : fmt::format("{:.0e} cycles", most_cycles), s.times.cycle,
+                  s.times.t));
 }
 
 StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness,

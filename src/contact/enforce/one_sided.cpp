@@ -260,11 +260,14 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   start_step_ = total[0].started + total[1].started;
   stepped_step_ = total[0].stepped + total[1].stepped;
   result.damping_work = damping_work_ + damping_step_;
-  result.start_work = start_work_ + start_step_;
   result.elastic = (total[0].potential + total[0].stick) + (total[1].potential + total[1].stick);
   result.friction_work = friction_work_ + friction_step_;
   const double work = (loads_[0].work + loads_[0].work_step) + (loads_[1].work + loads_[1].work_step);
   if (!evaluated_) initial_elastic_ = result.elastic;
+  // Whoever opens the time window over nodes in the gap puts the energy there that the springs then hold.
+  waiting_step_ = host.time < options_.birth;
+  if (waiting_ && awake) start_step_ += (loads_[0].work_step + loads_[1].work_step) + result.elastic + friction_step_ + damping_step_;
+  result.start_work = start_work_ + start_step_;
   evaluated_ = true;
   result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work - result.start_work +
                 (stepped_work_ + stepped_step_);
@@ -317,6 +320,7 @@ void OneSided::commit(double) {
   }
   stepped_ = true;
   committed_ = true;
+  waiting_ = waiting_step_;
   friction_work_ += friction_step_;
   friction_step_ = 0.0;
   damping_work_ += damping_step_;
@@ -362,7 +366,7 @@ void OneSided::save(HistoryWriter& out) const {
   for (const Pass& pass : pass_) bytes += pass.saved_bytes();
   out.reserve(bytes);
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
-  out.put(static_cast<std::uint64_t>(evaluated_ ? 1 : 0));
+  out.put(static_cast<std::uint64_t>(!evaluated_ ? 0 : !waiting_ ? 1 : 2));
   out.put(initial_elastic_);
   out.put(friction_work_);
   out.put(damping_work_);
@@ -387,6 +391,7 @@ void OneSided::load(HistoryReader& in) {
   started_ = started != 0;
   in.get(started);
   evaluated_ = started != 0;
+  waiting_ = started == 2;
   in.get(initial_elastic_);
   in.get(friction_work_);
   in.get(damping_work_);

@@ -44,9 +44,10 @@ class OneSided final : public InterfaceModel {
   double stepped_work_ = 0.0, stepped_step_ = 0.0;  ///< made by steps that changed under contact forces
   double initial_elastic_ = 0.0;                    ///< stored before anything moved: initial penetrations
   bool started_ = false, evaluated_ = false;
-  bool stepped_ = false;                 ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
-  bool committed_ = false;               ///< since the last search: the sides' positions are now those before the step
-  std::array<Vec3, 2> mean_velocity_{};  ///< of each side's nodes in the last step
+  bool waiting_ = false, waiting_step_ = false;  ///< the last step, this one was before the birth
+  bool stepped_ = false;                         ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
+  bool committed_ = false;                       ///< since the last search: the sides' positions are now those before the step
+  std::array<Vec3, 2> mean_velocity_{};          ///< of each side's nodes in the last step
 
   void prepare();
   /// The host's positions, and for each pass how far they are from those of the last step. Any common motion gives a true bound; the last

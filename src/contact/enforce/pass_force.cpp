@@ -61,7 +61,7 @@ double Pass::stepped_without_facet(const HostState& host, const Side& held, cons
   const NodeState& before = states_.before(i);
   if (before.held == 0 || before.reckoned == 0 || host.dt <= 0.0) return 0.0;
   const double rate = dot(velocity_over(host, held, surface, i, before.last), before.normal);
-  return made_by_changing_step(before.force, step_before(host.dt, host.dt_bar_old), host.dt, before.rate, rate);
+  return made_by_changing_step(before.force + before.damping, step_before(host.dt, host.dt_bar_old), host.dt, before.rate, rate);
 }
 
 double Pass::strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
@@ -187,7 +187,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       before.held != 0 && closest() ? dot(motion.rate * touch.normal + motion.tangential_velocity, before.normal) : motion.rate;
   if (before.held != 0) {
     const double by_step = made_by_changing_step(before.force, h_before, host.dt, before.rate, rate_along_last);
-    totals.stepped += by_step;
+    totals.stepped += by_step + made_by_changing_step(before.damping, h_before, host.dt, before.rate, rate_along_last);
     if (before.reckoned != 0) {
       made = before.made - before.stored + 0.5 * host.dt * dot(before.push, velocity_over(host, held, surface, i, before.last)) + by_step;
     }
