@@ -33,7 +33,7 @@ namespace abut {
 /// A call log of one interface (abut/contact/call_log.hpp): NAME_contact_ID.calls in the run folder, for `abut replay`.
 struct ContactRecording {
   Id interface_id = 0;
-  double from = 0.0, to = 1e30;  ///< times
+  double from = 0.0, to = 1e30;  ///< times, 0 <= from <= to
 };
 
 struct RunSettings {

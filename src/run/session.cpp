@@ -4,6 +4,7 @@
 
 #include <abut_commit.hpp>  // written by cmake/AbutCommit.cmake
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <thread>
@@ -53,6 +54,10 @@ void check_settings(const Model& model, const RunSettings& settings) {
     (void)run::interface_of(model.impl().model, r.interface_id, "recording");
     if (!recorded.insert(r.interface_id).second)
       throw RunError(fmt::format("recording of interface {}: it is asked for twice", r.interface_id));
+    if (!(r.from >= 0.0 && r.from <= r.to && std::isfinite(r.from)))
+      throw RunError(fmt::format(
+          "recording of interface {} from {} to {}: no time is between these; write two times, 0 or more, the earlier one first",
+          r.interface_id, r.from, r.to));
   }
   if (!settings.recordings.empty() && settings.output.empty()) throw RunError("recordings of interfaces need a run folder");
 }

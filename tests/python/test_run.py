@@ -439,6 +439,10 @@ def test_recorded_contact_is_replayed(tmp_path):
 @pytest.mark.parametrize("arguments, error, words", [
     (dict(record_contact={1: None}), ValueError, "record_contact needs an output folder"),
     (dict(record_contact={9: None}, output=True), abut.RunError, "9"),
+    (dict(record_contact={1: (0.01, 0.005)}, output=True), abut.RunError, "from 0.01 to 0.005: no time is between these"),
+    (dict(record_contact={1: (-1.0, 0.005)}, output=True), abut.RunError, "no time is between these"),
+    (dict(record_contact={1: (0.0, float("nan"))}, output=True), abut.RunError, "no time is between these"),
+    (dict(record_contact={1: (float("inf"), float("inf"))}, output=True), abut.RunError, "no time is between these"),
     (dict(interfaces={9: "start=1"}), abut.RunError, "9"),
     (dict(interfaces={1: "law=soft"}), abut.RunError, "law is 'soft', expected one of stiffening, constant"),
     (dict(interfaces={"some": "law=constant"}), abut.RunError, "neither an interface id nor 'all'"),
