@@ -155,6 +155,7 @@ void SetReader::evaluate_general_set(Item& item) {
       const Id id = r.integer({10 * k + 1, 10 * k + 10}, "ID");
       if (id != 0) ids.push_back(id);
     }
+    r.surplus_text("ID");
     apply_clause(r, key, ids, *item.content);
   }
   finish_general_set(item);

@@ -145,6 +145,7 @@ class HistoryReader {
                                 name.find(' ') == std::string::npos ? "DEF asks for the usual ones" : "each name has a field of its own"));
         }
       }
+      r.surplus_text("var");
     }
     if (!any) {
       const std::vector<std::string> expanded = th_expand(kind, "DEF");

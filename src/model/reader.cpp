@@ -152,6 +152,7 @@ bool BlockReader::flag(int column, std::string_view field) {
 
 std::vector<Id> BlockReader::id_list(std::string_view field) {
   std::vector<Id> ids;
+  bool told = false;
   while (next_card()) {
     const bool foreign = card_->file != block_->file;
     for (int i = 0; i < 10; ++i) {
@@ -166,8 +167,22 @@ std::vector<Id> BlockReader::id_list(std::string_view field) {
       if (!id) error("deck.bad_integer", c, field, not_a("an integer", s));
       if (id && *id != 0) ids.push_back(*id);
     }
+    if (!told && !foreign) told = surplus_text(field);
   }
   return ids;
+}
+
+bool BlockReader::surplus_text(std::string_view field) {
+  if (card_ == nullptr) return false;
+  constexpr deck::Columns beyond{101, 110};
+  const auto first = static_cast<std::size_t>(old_layout(*context_) ? to_old_layout(beyond).first : beyond.first) - 1;
+  const std::string_view text = first < card_->text.size() ? deck::trimmed(card_->text.substr(first)) : std::string_view{};
+  if (text.empty()) return false;
+  constexpr std::size_t shown = 40;
+  warning(
+      "deck.surplus_text", beyond, field,
+      fmt::format("{} stands right of the ten fields of a line and is not read: go on in the next line", quoted(text.substr(0, shown))));
+  return true;
 }
 
 Index BlockReader::resolve(const Tables::Map& table, Id id, std::string_view what, deck::Columns c, std::string_view field) {

@@ -95,8 +95,12 @@ class BlockReader {
   [[nodiscard]] bool flag(int column, std::string_view field);  ///< one-character 0/1/blank
   [[nodiscard]] bool blank(deck::Columns c) const { return text(c).empty(); }
 
-  /// Ids of a list, 10 per line, to the end of the block (blank fields skipped). Stops with a warning at a line that does not parse.
+  /// Ids of a list, 10 per line, to the end of the block (blank fields skipped). Stops with a warning at a line that does not parse,
+  /// warns once of text right of the fields.
   [[nodiscard]] std::vector<Id> id_list(std::string_view field);
+
+  /// Warns of text right of the ten fields of a line of a list, which is not read. @returns whether there is some
+  bool surplus_text(std::string_view field);
 
   /// Index of `id` in `table`; reports an error ("no /FUNCT with id 7") and returns no_index when absent. 0 gives no_index silently.
   [[nodiscard]] Index resolve(const Tables::Map& table, Id id, std::string_view what, deck::Columns c, std::string_view field);
