@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,7 +60,39 @@ std::string fields_text(const std::vector<model::FieldSupport>& fields) {
   return text;
 }
 
-bool chosen(const KeywordSupport& k, const std::string& word) { return k.keyword.find(word) != std::string::npos; }
+bool is_line(const std::string& word) { return word.starts_with('/'); }
+
+/// Whether a row of the table is about the word: in its keyword or in one of its types. The start of a keyword line fits from the start.
+bool fits(const KeywordSupport& k, const std::string& word) {
+  const auto in = [&word](const std::string& text) {
+    return is_line(word) ? text.starts_with(word) : text.find(word) != std::string::npos;
+  };
+  return in(k.keyword) || std::any_of(k.types.begin(), k.types.end(), [&](const std::string& type) { return in(k.keyword + "/" + type); });
+}
+
+using Rows = std::vector<KeywordSupport>;
+
+Rows fitting(const Rows& all, const std::string& word) {
+  Rows rows;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(rows), [&word](const KeywordSupport& k) { return fits(k, word); });
+  return rows;
+}
+
+/// "/INTER/TYPE3" begins "/INTER/TYPE3/1".
+bool begins(const std::string& keyword, const std::string& line) { return (line + "/").starts_with(keyword + "/"); }
+
+/// A row for a line that the table does not spell out: what its reader says. None where the table does not know its first word either.
+Rows asked(const Rows& all, const KeywordSupport& said) {
+  const std::string first = said.keyword.substr(0, said.keyword.find('/', 1));
+  if (said.treatment == Treatment::refused && std::none_of(all.begin(), all.end(), [&](const auto& k) { return begins(first, k.keyword); }))
+    return {};
+  const KeywordSupport* row = &said;  // of several rows that begin the line, the longest has its fields
+  for (const KeywordSupport& k : all) {
+    const bool better = row == &said || k.keyword.size() > row->keyword.size();
+    if (said.treatment == Treatment::taken && k.treatment == Treatment::taken && begins(k.keyword, said.keyword) && better) row = &k;
+  }
+  return {*row};
+}
 
 std::string name_of(const KeywordSupport& k) { return fmt::format("`{}`", k.keyword); }
 
@@ -74,12 +107,12 @@ std::string names_of(const std::vector<KeywordSupport>& all) {
   return text;
 }
 
-std::vector<std::string> rows_of(const std::vector<KeywordSupport>& all, Treatment treatment, const std::string& word) {
-  std::vector<std::string> rows;
+std::vector<std::string> names_of(const Rows& all, Treatment treatment) {
+  std::vector<std::string> names;
   for (const KeywordSupport& k : all) {
-    if (k.treatment == treatment && chosen(k, word)) rows.push_back(name_of(k));
+    if (k.treatment == treatment) names.push_back(name_of(k));
   }
-  return rows;
+  return names;
 }
 
 void print_list(std::string_view heading, const std::vector<std::string>& names) {
@@ -91,50 +124,60 @@ void print_list(std::string_view heading, const std::vector<std::string>& names)
 int keywords_command(const KeywordsArguments& arguments) {
   std::string word = arguments.word;
   std::transform(word.begin(), word.end(), word.begin(), [](unsigned char x) { return static_cast<char>(std::toupper(x)); });
-  const std::vector<KeywordSupport> starter = model::starter_keywords();
-  const std::vector<KeywordSupport> engine = model::engine_keywords();
-  const auto any = [&](const std::vector<KeywordSupport>& all) {
-    return std::any_of(all.begin(), all.end(), [&](const KeywordSupport& k) { return chosen(k, word); });
-  };
-  if (!any(starter) && !any(engine)) {
-    fmt::print(stderr, "abut: no keyword in the table contains {}; a deck with it is refused\n", word);
+  const Rows all_starter = model::starter_keywords(), all_engine = model::engine_keywords();
+  Rows starter = fitting(all_starter, word), engine = fitting(all_engine, word);
+  if (starter.empty() && engine.empty() && word.starts_with('#')) {
+    fmt::print(stderr, "abut: {}: lines that begin with # are comments, but for #include FILE\n", arguments.word);
     return 1;
+  }
+  if (starter.empty() && engine.empty()) {
+    const std::string line = is_line(word) ? word : "/" + word;
+    starter = asked(all_starter, model::starter_line(line));
+    engine = asked(all_engine, model::engine_line(line));
+    if (starter.empty() && engine.empty()) {
+      fmt::print(stderr, "abut: {} is not known to abut; a Starter or an Engine deck with it is refused\n", line);
+      return 1;
+    }
   }
 
   fmt::print(
-      "# Keywords\n\nWritten by `abut keywords` from the reader's own tables and by letting its readers read; do not edit. A keyword that "
-      "is not\n"
-      "here is refused, for it may change the mechanics. Format versions 41 to 2026; \"(from 51)\" and the like: versions in which the "
+      "# Keywords\n\nWritten by `abut keywords` from the reader's own tables and by letting its readers read; do not edit. A keyword whose "
+      "words are\n"
+      "not here is refused, for it may change the mechanics; fields of `/ANIM` that are not here are left out with a warning. `abut "
+      "keywords "
+      "LINE` asks\n"
+      "the readers what they do with a line, e.g. `/SURF/SEG/1`. Format versions 41 to 2026; \"(from 51)\" and the like: versions in which "
+      "the "
       "field is read\n"
       "where that is not all. Columns are those of the layout with 10 columns (from 51 on). Numbers in other fields are not looked at.\n");
-  if (!rows_of(starter, Treatment::taken, word).empty()) {
+  if (!names_of(starter, Treatment::taken).empty()) {
     fmt::print(
         "\n## Starter: read\n\nA number in bold is the card, counted without the title (of the newest layout).\n\n| keyword | cards: "
         "fields and columns "
         "|\n|---|---|\n");
-    std::vector<KeywordSupport> alike;  // keywords that follow each other with the same fields share a row
+    Rows alike;  // keywords that follow each other with the same fields share a row
     const auto print_row = [&alike] {
       if (!alike.empty()) fmt::print("| {} | {} |\n", names_of(alike), fields_text(alike.front().fields));
       alike.clear();
     };
     for (const KeywordSupport& k : starter) {
-      if (k.treatment != Treatment::taken || !chosen(k, word)) continue;
+      if (k.treatment != Treatment::taken) continue;
       if (!alike.empty() && fields_text(k.fields) != fields_text(alike.front().fields)) print_row();
       alike.push_back(k);
     }
     print_row();
   }
-  print_list("Starter: passed over, does not change the mechanics", rows_of(starter, Treatment::harmless, word));
-  if (!rows_of(starter, Treatment::refused, word).empty()) {
+  print_list("Starter: passed over, does not change the mechanics", names_of(starter, Treatment::harmless));
+  if (!names_of(starter, Treatment::refused).empty()) {
     fmt::print(
         "\n## Starter: refused\n\nWhere a line above names a type, this is about the other types.\n\n| keyword | why |\n|---|---|\n");
     for (const KeywordSupport& k : starter) {
-      if (k.treatment == Treatment::refused && chosen(k, word)) fmt::print("| {} | {} |\n", name_of(k), k.reason);
+      if (k.treatment == Treatment::refused) fmt::print("| {} | {} |\n", name_of(k), k.reason);
     }
   }
-  print_list("Engine: read", rows_of(engine, Treatment::taken, word));
-  print_list("Engine: passed over, does not change the mechanics", rows_of(engine, Treatment::harmless, word));
-  print_list("Engine: refused", rows_of(engine, Treatment::refused, word));
+  print_list("Engine: read", names_of(engine, Treatment::taken));
+  print_list("Engine: passed over, does not change the mechanics", names_of(engine, Treatment::harmless));
+  print_list("Engine: refused", names_of(engine, Treatment::refused));
   return 0;
 }
 

@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
 
   KeywordsArguments keywords;
   CLI::App* keywords_app = app.add_subcommand("keywords", "print what abut does with each keyword of a deck, as Markdown");
-  keywords_app->add_option("WORD", keywords.word, "only keywords that contain this word, e.g. INTER");
+  keywords_app->add_option("WORD", keywords.word, "only keywords that contain this word, e.g. INTER; or a keyword line, e.g. /SURF/SEG/1");
 
   if (argc > 1 && argv[1][0] != '-') {
     const std::string_view word = argv[1];

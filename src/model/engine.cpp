@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "model/animation_names.hpp"
 #include "model/condition_fields.hpp"
 
 namespace abut::model {
@@ -92,22 +93,6 @@ class FreeFormat {
   std::vector<std::pair<std::size_t, std::vector<std::string_view>>> lines_;
 };
 
-/// Spellings that mean one field (deck-format.md A.3).
-std::string animation_field(const deck::Block& block) {
-  static const std::map<std::string, std::string> synonyms{{"HOUR", "HOURG"}, {"PRES", "P"},       {"DMASS", "DMAS"},   {"ACCEL", "ACC"},
-                                                           {"BRIC", "BRICK"}, {"EPSDO", "EPSDOT"}, {"STRES", "STRESS"}, {"STRAI", "STRAIN"},
-                                                           {"VELO", "VEL"},   {"SHEL", "SHELL"}};
-  std::string field;
-  for (std::size_t i = 1; i < block.words.size(); ++i) {
-    std::string word = upper(block.words[i]);
-    const auto found = synonyms.find(word);
-    if (found != synonyms.end()) word = found->second;
-    if (i == 1 && word == "TENS") field = "SHELL";
-    if (!word.empty()) field += (field.empty() ? "" : "/") + word;
-  }
-  return field;
-}
-
 class EngineReader {
  public:
   EngineReader(Context& c, const deck::Deck& engine, int run) : c_(c), engine_(engine), k_(c.model->controls), run_(run) {}
@@ -120,7 +105,7 @@ class EngineReader {
     for (const deck::Block& block : engine_.blocks) {
       if (read_block(block)) continue;
       if (refused_.empty()) first_refused_ = engine_.place(block);
-      refused_.push_back(fmt::format("/{} (line {})", joined(block), engine_.place(block).line));
+      refused_.push_back(named(block));
     }
     Place place;
     place.file = engine_.files.empty() ? std::string{} : engine_.files.front();
@@ -134,6 +119,11 @@ class EngineReader {
           fmt::format("these keywords are not supported, and without them the result would be wrong: {}; take them out to run without",
                       fmt::join(refused_, ", ")));
     }
+    if (!left_out_.empty()) {
+      c_.diagnostics->warning(
+          "engine.left_out", first_left_out_,
+          fmt::format("abut does not compute these fields of the animation; they are left out: {}", fmt::join(left_out_, ", ")));
+    }
     if (!skipped_.empty()) {
       c_.diagnostics->note("engine.skipped", place,
                            fmt::format("these keywords do not change the mechanics and are skipped: {}", fmt::join(skipped_, ", ")));
@@ -142,6 +132,9 @@ class EngineReader {
 
  private:
   static std::string joined(const deck::Block& block) { return fmt::format("{}", fmt::join(block.words, "/")); }
+
+  /// "/KEREL (line 5)"
+  std::string named(const deck::Block& block) const { return fmt::format("/{} (line {})", joined(block), engine_.place(block).line); }
 
   FreeFormat data(const deck::Block& block) { return {engine_, block, *c_.diagnostics}; }
 
@@ -350,7 +343,7 @@ class EngineReader {
   }
 
   bool read_animation(const deck::Block& block) {
-    const std::string field = animation_field(block);
+    const std::string field = animation_selection(block);
     if (field == "DT") {
       FreeFormat d = data(block);
       k_.animation_start = d.positive(0, "Tstart");
@@ -361,6 +354,10 @@ class EngineReader {
     if (field.empty() || field == "GZIP" || field.starts_with("VERS")) return true;
     if (std::find(k_.animation_fields.begin(), k_.animation_fields.end(), field) == k_.animation_fields.end()) {
       k_.animation_fields.push_back(field);
+    }
+    if (!has_animation_field(field)) {
+      if (left_out_.empty()) first_left_out_ = engine_.place(block);
+      left_out_.push_back(named(block));
     }
     return true;
   }
@@ -390,6 +387,8 @@ class EngineReader {
   bool has_run_ = false;
   std::vector<std::string> refused_;
   Place first_refused_;
+  std::vector<std::string> left_out_;  ///< fields of the animation
+  Place first_left_out_;
   std::set<std::string> skipped_;
 };
 

@@ -10,6 +10,9 @@
 #include <tuple>
 #include <utility>
 
+#include "deck/text.hpp"
+#include "model/animation_names.hpp"
+
 namespace abut::model {
 
 namespace {
@@ -148,6 +151,17 @@ std::vector<std::string> line_of(std::vector<std::string> words, const std::stri
   return words;
 }
 
+/// What the Starter's readers did with a block by what they said, and why.
+std::pair<Treatment, std::string> judge(const Diagnostics& said) {
+  static const std::set<std::string_view> refusals{"model.unsupported_keyword", "model.unknown_type", "model.unsupported"};
+  std::pair<Treatment, std::string> found{Treatment::taken, {}};
+  for (const Diagnostic& d : said.all()) {
+    if (d.severity == Severity::error && refusals.contains(d.code)) return {Treatment::refused, d.message};
+    if (d.code == "model.left_out") found = {Treatment::harmless, {}};
+  }
+  return found;
+}
+
 /// Second words that a reader of sets may know; which it takes is asked.
 std::vector<std::string> known_types(const std::string& keyword) {
   static const std::set<std::string> sets{"/GRNOD", "/GRSHEL", "/GRSH3N", "/GRBRIC", "/GRPART", "/SURF", "/BOX", "/SET"};
@@ -172,11 +186,7 @@ std::vector<std::string> known_types(const std::string& keyword) {
   std::vector<std::string> taken;
   for (const std::string& type : candidates) {
     if (keyword != "/SURF" && type.find('/') != std::string::npos) continue;  // of other sets the word after the type is the id
-    const Diagnostics said = read_probe(line_of({keyword.substr(1)}, type), {}, 2022).second;
-    const bool refused = std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& d) {
-      return d.code == "model.left_out" ||
-             (d.severity == Severity::error && (d.code == "model.unknown_type" || d.code == "model.unsupported"));
-    });
+    const bool refused = judge(read_probe(line_of({keyword.substr(1)}, type), {}, 2022).second).first != Treatment::taken;
     if (!refused) taken.push_back(type);
   }
   return taken;
@@ -225,6 +235,7 @@ const std::vector<int>& probed_versions() {
 
 std::vector<KeywordSupport> starter_keywords() {
   std::vector<KeywordSupport> all = keyword_rules();
+  all.insert(all.begin(), {{"#INCLUDE", Treatment::taken, {}, {}, {}}, {"/END", Treatment::taken, {}, {}, {}}});  // of the scanner
   for (KeywordSupport& k : all) {
     if (k.treatment != Treatment::taken) continue;
     k.types = known_types(k.keyword);
@@ -235,36 +246,67 @@ std::vector<KeywordSupport> starter_keywords() {
 
 std::vector<KeywordSupport> engine_keywords() {
   static const std::vector<std::string> candidates{
-      "RUN/probe/1",  "VERS",         "TITLE",     "TFILE",     "PRINT",     "RFILE",       "STOP",           "KILL",
-      "DT",           "DT/BRICK",     "DT/SHELL",  "DT/SH_3N",  "DT/NODA",   "DT/NODA/CST", "DT/NODA/STOP",   "DT/INTER",
-      "DT/INTER/DEL", "DT/INTER/CST", "DT/BEAM",   "DT/SPRING", "DTIX",      "ANIM/DT",     "ANIM/VECT/DISP", "ANIM/ELEM/VONM",
-      "ANIM/GZIP",    "RBODY/ON",     "RBODY/OFF", "MON/ON",    "PARITH/ON", "PROC",        "DEBUG",          "OUTP/DT",
-      "STATE/DT",     "DYNAIN/DT",    "H3D/DT",    "ATFILE",    "DAMP",      "DEL/SHELL",   "DEL/BRICK",      "DELINT",
-      "BCS/TRA",      "VEL/TRA",      "INIV/TRA",  "KEREL",     "ADYREL",    "DYREL",       "SENSOR",         "RERUN",
-      "IMPL/LINEAR",  "ALE/ON",       "UPWIND",    "SHVER",     "DT1",       "DTSDE",       "INTER",          "AMS",
-      "FUNCT",        "NEGVOL/STOP"};
-  std::vector<KeywordSupport> all;
+      "RUN/probe/1",  "VERS",         "TITLE",      "TFILE",     "PRINT",     "RFILE",       "STOP",         "KILL",
+      "DT",           "DT/BRICK",     "DT/SHELL",   "DT/SH_3N",  "DT/NODA",   "DT/NODA/CST", "DT/NODA/STOP", "DT/INTER",
+      "DT/INTER/DEL", "DT/INTER/CST", "DT/BEAM",    "DT/SPRING", "DTIX",      "ANIM/DT",     "ANIM/GZIP",    "RBODY/ON",
+      "RBODY/OFF",    "MON/ON",       "PARITH/ON",  "PROC",      "DEBUG",     "OUTP/DT",     "STATE/DT",     "DYNAIN/DT",
+      "H3D/DT",       "ATFILE",       "DAMP",       "DEL/SHELL", "DEL/BRICK", "DELINT",      "BCS/TRA",      "VEL/TRA",
+      "INIV/TRA",     "KEREL",        "ADYREL",     "DYREL",     "SENSOR",    "RERUN",       "IMPL/LINEAR",  "ALE/ON",
+      "UPWIND",       "SHVER",        "DT1",        "DTSDE",     "INTER",     "AMS",         "FUNCT",        "NEGVOL/STOP",
+      "TH/VERS",      "TH/TITLE",     "CHECKPOINT", "THREAD",    "NOISE",     "ABF",         "IOFLAG",       "END"};
+  std::vector<KeywordSupport> all{{"#INCLUDE", Treatment::refused, "write the lines into the Engine deck", {}, {}}};
   for (const std::string& name : candidates) {
-    Diagnostics said;
-    const deck::Deck engine = deck::read_engine_text(
-        "#RADIOSS ENGINE\n" + std::string(name.starts_with("RUN") ? "" : "/RUN/probe/1\n1.0\n") + "/" + name + "\n0.9 1e-6\n", "probe",
-        said);
-    const Probe starter({"TITLE"}, {}, 2022);
-    Model model;
-    Context c;
-    c.deck = &starter.deck();
-    c.model = &model;
-    c.diagnostics = &said;
-    read_engine(c, engine, 1);
-    const auto says = [&said](std::string_view code) {
-      return std::any_of(said.all().begin(), said.all().end(), [code](const Diagnostic& d) { return d.code == code; });
-    };
-    KeywordSupport k;
-    k.keyword = "/" + name.substr(0, name.find("/probe"));
-    k.treatment = says("engine.unsupported") ? Treatment::refused : says("engine.skipped") ? Treatment::harmless : Treatment::taken;
-    all.push_back(std::move(k));
+    all.push_back(engine_line("/" + name));
+    all.back().keyword = "/" + name.substr(0, name.find("/probe"));
   }
+  for (const std::string& name : animation_names()) all.push_back(engine_line("/ANIM/" + name));
   return all;
+}
+
+KeywordSupport starter_line(const std::string& line) {
+  KeywordSupport k;
+  k.keyword = line;
+  Diagnostics unused;
+  const deck::Deck typed = deck::read_starter_text(line + "\n", "probe", unused);
+  if (typed.blocks.empty()) return k;  // the end of the deck
+  std::vector<std::string> words;
+  for (const std::string_view word : typed.blocks.front().words) words.emplace_back(word);
+  const Probe probe(words, {}, 2022);
+  Model model;
+  Diagnostics said;
+  Context c;
+  c.deck = &probe.deck();
+  c.model = &model;
+  c.diagnostics = &said;
+  read_control(c);
+  read_entities(c);
+  check_keywords(c);
+  std::tie(k.treatment, k.reason) = judge(said);
+  if (!model.skipped.empty()) k.treatment = Treatment::harmless;
+  return k;
+}
+
+KeywordSupport engine_line(const std::string& line) {
+  Diagnostics said;
+  const bool runs = deck::same_word(std::string_view(line).substr(0, 5), "/RUN/");
+  const deck::Deck engine =
+      deck::read_engine_text("#RADIOSS ENGINE\n" + std::string(runs ? "" : "/RUN/probe/1\n1.0\n") + line + "\n0.9 1e-6\n", "probe", said);
+  const Probe starter({"TITLE"}, {}, 2022);
+  Model model;
+  Context c;
+  c.deck = &starter.deck();
+  c.model = &model;
+  c.diagnostics = &said;
+  read_engine(c, engine, 1);
+  const auto says = [&said](std::string_view code) {
+    return std::any_of(said.all().begin(), said.all().end(), [code](const Diagnostic& d) { return d.code == code; });
+  };
+  KeywordSupport k;
+  k.keyword = line;
+  k.treatment = says("engine.unsupported")                          ? Treatment::refused
+                : says("engine.skipped") || says("engine.left_out") ? Treatment::harmless
+                                                                    : Treatment::taken;
+  return k;
 }
 
 }  // namespace abut::model

@@ -37,4 +37,8 @@ struct KeywordSupport {
 [[nodiscard]] std::vector<KeywordSupport> starter_keywords();
 [[nodiscard]] std::vector<KeywordSupport> engine_keywords();
 
+/// What the readers do with a keyword line as typed ("/SURF/SEG/1"), whatever its cards are; no fields. `reason` is what they say then.
+[[nodiscard]] KeywordSupport starter_line(const std::string& line);
+[[nodiscard]] KeywordSupport engine_line(const std::string& line);
+
 }  // namespace abut::model

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <string_view>
 #include <utility>
 
 #include "elements/strain_rate.hpp"
+#include "model/animation_names.hpp"
 
 namespace abut::output {
 namespace {
@@ -103,14 +102,6 @@ const CellField strain_rate{"strain_rate", 1, [](const ElementSample& e, double*
                                          : elements::equivalent_strain_rate(*e.group, e.element, e.state->x, e.state->v, e.state->w);
                             }};
 
-/// Selections that ask for something which every state has (OFF: only active elements are in it), or for nothing that is a field.
-bool is_always_there(std::string_view s) {
-  static const std::set<std::string_view> names{
-      "VECT/DISP", "VECT/VEL",   "VECT/CONT",  "VECT/PCONT", "ELEM/EPSP",        "ELEM/VONM",   "ELEM/OFF", "ELEM/SIGX",      "ELEM/SIGY",
-      "ELEM/SIGZ", "ELEM/SIGXY", "ELEM/SIGYZ", "ELEM/SIGZX", "TENS/STRESS/MEMB", "TENS/STRESS", "GZIP",     "TENS/STRESS/000"};
-  return names.contains(s);
-}
-
 CellField layer_field(std::string name, elements::ShellLayer layer) {
   return {std::move(name), 6, [layer](const ElementSample& e, double* out) {
             const std::array<double, 6> s = e.group != nullptr ? e.group->layer_stress(e.element, layer) : std::array<double, 6>{};
@@ -128,20 +119,9 @@ std::vector<CellField> layer_fields(std::string_view selection) {
   if (layer == "LOWER") return {layer_field("stress_lower", {Kind::lower})};
   if (layer == "BEND") return {layer_field("stress_bending", {Kind::bending})};
   if (layer == "ALL") return {layer_field("stress_upper", {Kind::upper}), layer_field("stress_lower", {Kind::lower})};
-  int point = 0;
-  const auto [end, fault] = std::from_chars(layer.data(), layer.data() + layer.size(), point);
-  if (fault != std::errc{} || end != layer.data() + layer.size() || point < 1) return {};
+  const int point = model::animation_layer(selection);
+  if (point == 0) return {};
   return {layer_field("stress_point_" + std::to_string(point), {Kind::point, point})};
-}
-
-/// "SHELL/EPSP" and "BRICK/EPSP" ask for the same field as "ELEM/EPSP"; "BRICK/TENS/STRESS" as "TENS/STRESS".
-std::string normalised(std::string s) {
-  for (const std::string_view type : {"SHELL/", "BRICK/", "SH3N/", "SOLID/", "ELEM/"}) {
-    if (!s.starts_with(type)) continue;
-    const std::string rest = s.substr(type.size());
-    return rest.starts_with("TENS/") ? rest : "ELEM/" + rest;
-  }
-  return s;
 }
 
 const std::vector<std::pair<std::string_view, NodeField>>& selectable_node_fields() {
@@ -163,6 +143,7 @@ const std::vector<std::pair<std::string_view, CellField>>& selectable_cell_field
 AnimationFields select_animation_fields(const std::vector<std::string>& selections) {
   const auto& node_fields = selectable_node_fields();
   const auto& cell_fields = selectable_cell_fields();
+  const std::vector<std::string>& every_state = model::animation_names_of_every_state();
   AnimationFields fields{
       {displacement, velocity, contact_force, pressure_normal, pressure_tangential, contact_gap, contact_penetration, contact_state},
       {plastic_strain, von_mises, stress},
@@ -171,8 +152,8 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
     if (std::none_of(list.begin(), list.end(), [&](const auto& f) { return f.name == field.name; })) list.push_back(field);
   };
   for (const std::string& selection : selections) {
-    const std::string s = normalised(selection);
-    if (is_always_there(s)) continue;
+    const std::string s = model::plain_animation_name(selection);
+    if (std::find(every_state.begin(), every_state.end(), s) != every_state.end()) continue;
     const auto same = [&s](const auto& entry) { return entry.first == s; };
     if (const auto n = std::find_if(node_fields.begin(), node_fields.end(), same); n != node_fields.end()) {
       add_once(fields.nodes, n->second);
@@ -188,11 +169,6 @@ AnimationFields select_animation_fields(const std::vector<std::string>& selectio
   return fields;
 }
 
-AnimationFields every_animation_field() {
-  std::vector<std::string> selections{"TENS/STRESS/UPPER", "TENS/STRESS/LOWER", "TENS/STRESS/BEND"};
-  for (const auto& entry : selectable_node_fields()) selections.emplace_back(entry.first);
-  for (const auto& entry : selectable_cell_fields()) selections.emplace_back(entry.first);
-  return select_animation_fields(selections);
-}
+AnimationFields every_animation_field() { return select_animation_fields(model::animation_names_on_request()); }
 
 }  // namespace abut::output

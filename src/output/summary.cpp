@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "init/contact_options.hpp"
-#include "output/animation_fields.hpp"
 
 namespace abut::output {
 namespace {
@@ -116,10 +115,6 @@ void print_conditions(std::string& out, const model::Model& model) {
 }
 
 void print_controls(std::string& out, const model::Controls& c) {
-  const std::vector<std::string> left_out = select_animation_fields(c.animation_fields).left_out;
-  std::string names;
-  for (const std::string& field : left_out) names += (names.empty() ? "" : ", ") + field;
-  if (!names.empty()) print(out, "Not shown   /ANIM fields that abut does not compute: {}\n", names);
   print(out, "Run         until {:.6g}", c.t_end);
   if (c.history_interval < model::infinity) print(out, ", history every {:.6g}", c.history_interval);
   if (c.animation_interval < model::infinity) print(out, ", animation every {:.6g}", c.animation_interval);

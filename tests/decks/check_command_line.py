@@ -57,6 +57,54 @@ def check(abut, deck):
     return document["model"]["name"]
 
 
+STARTER_LINES = """/SURF/SEG/9001 /SURF/PART/EXT/9002 /SURF/ELLIPS/9003 /GRNOD/NODE/9004 /GRNOD/SPHERE/9005 /TH/NODE/9006 /TH/MONV/9007
+    /BOX/RECTA/9008 /SKEW/FIX/9009 /SET/GENERAL/9010 /ADMAS/0/9011 /ADMAS/7/9012 /INTER/TYPE3/9013 /INTER/TYPE11/9014 /MAT/LAW36/9015
+    /FRAME/FIX/9016 /FOO/9017 /DAMP/9018 /IOFLAG""".split()
+ENGINE_LINES = """/PRINT/-100 /TFILE/4 /TFILE/A /ANIM/VECT/PCONT /ANIM/SHELL/EPSP /ANIM/ELEM/EPSD /ANIM/VECT/FOPT /ANIM/SHELL/TENS/STRESS/UPPER
+    /ANIM/MASS /ANIM/FOO /ANIM/NODA/TEMP /DT/NODA/CST/0 /DT/NODA/STOP /DT/AMS /FOO /PROC /STOP /KEREL""".split()
+
+
+def said_by_keywords(abut, line):
+    """{"Starter": "read", "Engine": "refused"}: under which headings `abut keywords` puts a line."""
+    result = call(abut, "keywords", line)
+    if result.returncode == 1:
+        expect("is refused" in result.stderr, f"abut keywords {line} knows nothing and says what that means", result)
+        return {"Starter": "refused", "Engine": "refused"}
+    headings = re.findall(r"(?m)^## (\w+): (\w+)", result.stdout)
+    expect(headings and len(dict(headings)) == len(headings), f"abut keywords {line} has one answer per deck", result)
+    return dict(headings)
+
+
+def keywords(abut, deck, folder):
+    """What `abut keywords LINE` says is what the reader does with the line in a deck."""
+    os.makedirs(folder)
+    starter = os.path.join(folder, os.path.basename(deck))
+    text = re.split(r"(?m)^/END", open(deck).read())[0]
+    with open(starter, "w") as file:
+        file.write(text + "".join(f"{line}\ntitle\n\n" for line in STARTER_LINES))
+    engine = deck.replace("_0000.rad", "_0001.rad")
+    with open(starter.replace("_0000.rad", "_0001.rad"), "w") as file:
+        file.write(open(engine).read() + "".join(f"{line}\n0.9 1e-9\n" for line in ENGINE_LINES))
+    result = call(abut, "check", starter, "--json")
+    findings = json.loads(result.stdout)["findings"]
+    refusals = ("model.unsupported_keyword", "model.unknown_type", "model.unsupported")
+    refused = {f["keyword"] for f in findings if f["code"] in refusals}
+    warned = {f["keyword"] for f in findings if f["code"] == "model.left_out"}
+    for line in STARTER_LINES:
+        # What the reader passes over without a warning is no finding.
+        does = ["refused"] if line in refused else ["passed"] if line in warned else ["read", "passed"]
+        expect(said_by_keywords(abut, line)["Starter"] in does, f"abut keywords {line} is right: {does[0]}", result)
+    messages = {f["code"]: f["message"] for f in findings if f["code"].startswith("engine.")}
+    for line in ENGINE_LINES:
+        def named(code):
+            return re.search(rf" {re.escape(line)}( \(|,|$)", messages[code])
+        does = "refused" if named("engine.unsupported") else "passed" if named("engine.left_out") or named("engine.skipped") else "read"
+        expect(said_by_keywords(abut, line)["Engine"] == does, f"abut keywords {line} is right: {does}", result)
+    for word in ("PCONT", "EPSD", "TENS", "/SURF/SEG", "/ADMAS/0", "/RUN/NAME/1", "/INTER/TYPE3/1", "#include"):
+        result = call(abut, "keywords", word)
+        expect(result.returncode == 0 and ": read" in result.stdout, f"abut keywords {word} finds what is read", result)
+
+
 def endless(deck, folder):
     """A copy of the deck whose run does not end within the test."""
     os.makedirs(folder)
@@ -142,7 +190,9 @@ def recorded(abut, folder):
                                ("--interface", "1:depth=0", "a length > 0"), ("--interface", "one:gap=auto", "neither an interface id"),
                                ("--interface", "1:initial=project,start=1", "cannot be had with"), ("--interface", "1:speed=1", "no setting"),
                                ("--interface", "1:gap=auto,gap=card", "twice"),
-                               ("--record-contact", "1:2:3:4", "expected an interface id"), ("--record-contact", "x", "not a number")):
+                               ("--record-contact", "1:2:3:4", "expected an interface id"), ("--record-contact", "x", "not a number"),
+                               ("--record-contact", "1:nan", "not a number"), ("--record-contact", "1:0:-1", "not a number"),
+                               ("--record-contact", "1:0.01:0.005", "from 0.01 to 0.005: no time is between these")):
         result = call(abut, "run", deck, "-o", output, option, value)
         expect(result.returncode == 1 and why in result.stderr, f"{option} {value} is refused: {why}", result)
 
@@ -162,6 +212,7 @@ def main():
     usage(abut)
     name = check(abut, deck)
     with tempfile.TemporaryDirectory() as folder:
+        keywords(abut, deck, os.path.join(folder, "keywords"))
         interrupted(abut, endless(deck, os.path.join(folder, "deck")), name, os.path.join(folder, "interrupted"), *sys.argv[3:])
         complete(abut, deck, name, os.path.join(folder, "complete"))
         recorded(abut, folder)

@@ -81,7 +81,7 @@ TEST(KeywordTable, KeywordsThatADeckMayNotDoWithoutAreRead) {
 
 TEST(KeywordTable, EveryKeywordThatIsReadNamesItsFields) {
   for (const KeywordSupport& k : starter_keywords()) {
-    if (k.treatment != Treatment::taken || k.keyword == "/SHFRA") continue;
+    if (k.treatment != Treatment::taken || k.keyword == "/SHFRA" || k.keyword == "/END" || k.keyword == "#INCLUDE") continue;
     EXPECT_FALSE(k.fields.empty()) << k.keyword;
   }
 }
@@ -118,6 +118,30 @@ TEST(KeywordTable, EngineKeywordsAreAskedOfTheReader) {
   }
   EXPECT_EQ(find(all, "/PROC").treatment, Treatment::harmless);
   EXPECT_EQ(find(all, "/DAMP").treatment, Treatment::refused);
+}
+
+TEST(KeywordTable, AnimationsAreListedByName) {
+  const std::vector<KeywordSupport> all = engine_keywords();
+  for (const char* keyword : {"/ANIM/VECT/PCONT", "/ANIM/ELEM/EPSD", "/ANIM/VECT/FOPT", "/ANIM/MASS", "/ANIM/TENS/STRESS/UPPER"}) {
+    EXPECT_EQ(find(all, keyword).treatment, Treatment::taken) << keyword;
+  }
+}
+
+// Lines with ids and names, as decks have them.
+TEST(KeywordTable, TheReadersAreAskedAboutALine) {
+  EXPECT_EQ(starter_line("/SURF/SEG/1").treatment, Treatment::taken);
+  EXPECT_EQ(starter_line("/SURF/PART/EXT/1").treatment, Treatment::taken);
+  EXPECT_EQ(starter_line("/INTER/TYPE11/2").treatment, Treatment::refused);
+  EXPECT_EQ(starter_line("/SURF/ELLIPS/2").treatment, Treatment::refused);
+  EXPECT_EQ(starter_line("/FOO").reason, "/FOO is not supported: not known to abut; it may change the mechanics");
+  EXPECT_EQ(starter_line("/TH/MONV/1").treatment, Treatment::harmless);  // left out with a warning
+  EXPECT_EQ(starter_line("/FRAME/FIX/1").treatment, Treatment::harmless);
+  EXPECT_EQ(starter_line("/END").treatment, Treatment::taken);
+  EXPECT_EQ(engine_line("/RUN/NAME/1").treatment, Treatment::taken);
+  EXPECT_EQ(engine_line("/PRINT/-100").treatment, Treatment::taken);
+  EXPECT_EQ(engine_line("/DT/AMS").treatment, Treatment::refused);
+  EXPECT_EQ(engine_line("/ANIM/SHELL/TENS/STRESS/3").treatment, Treatment::taken);
+  EXPECT_EQ(engine_line("/ANIM/FOO").treatment, Treatment::harmless);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include <span>
 
 #include "core/diagnostic.hpp"
+#include "model/animation_names.hpp"
 #include "output/animation_fields.hpp"
 #include "output/cell_shape.hpp"
 #include "scene.hpp"
@@ -186,6 +187,19 @@ TEST_F(AnimationTest, SelectionsThatAreNotComputedAreNamed) {
                   .left_out.empty());
   EXPECT_EQ(select_animation_fields({"NODA/TEMP", "ELEM/VONM", "NODA/TEMP", "SHELL/TENS/STRAIN/UPPER", "SHELL/TENS/STRESS/0"}).left_out,
             (std::vector<std::string>{"NODA/TEMP", "SHELL/TENS/STRAIN/UPPER", "SHELL/TENS/STRESS/0"}));
+}
+
+// The reader warns of names that it does not know; it knows those that are computed, and no other.
+TEST_F(AnimationTest, TheNamesThatTheReaderKnowsAreComputed) {
+  EXPECT_EQ(select_animation_fields(model::animation_names()).left_out, std::vector<std::string>{});
+  for (const std::string& name : model::animation_names_on_request()) {
+    EXPECT_GT(select_animation_fields({name}).nodes.size() + select_animation_fields({name}).cells.size(),
+              select_animation_fields({}).nodes.size() + select_animation_fields({}).cells.size())
+        << name;
+  }
+  for (const char* name : {"NODA/TEMP", "SHELL/TENS/STRAIN/UPPER", "SHELL/TENS/STRESS/0", "SHELL/TENS/STRESS/3", "BRICK/EPSP", "FOO"}) {
+    EXPECT_EQ(model::has_animation_field(name), select_animation_fields({name}).left_out.empty()) << name;
+  }
 }
 
 TEST_F(AnimationTest, ADeletedElementIsLeftOutFromThenOn) {
