@@ -6,6 +6,7 @@ usage: summarise_run.py RUN_FOLDER      (the folder that `abut run` filled)
 Exit status 1 if there is no time history. Standard library only.
 """
 import csv
+import json
 import math
 import sys
 from pathlib import Path
@@ -19,9 +20,29 @@ def read(path):
     return {name: [row[k] for row in table] for k, name in enumerate(names)}
 
 
-def first_of(values, choose):
-    value = choose(values)
-    return value, values.index(value)
+def outcome_of(folder):
+    """How the run ended, as run.json has it."""
+    try:
+        outcome = json.loads((folder / "run.json").read_text(encoding="utf-8"))["outcome"]
+        kind, message = outcome["kind"], outcome.get("message", "")
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return "not known: there is no run.json that says how the run ended"
+    if kind == "running":
+        return "not ended: the run still goes on, or was stopped from outside"
+    return f"{kind}: {message}" if message else kind
+
+
+def largest(values):
+    """The value of largest size and its row; nan and 0 when none is finite."""
+    rows = [row for row, value in enumerate(values) if math.isfinite(value)]
+    row = max(rows, key=lambda row: abs(values[row]), default=None)
+    return (math.nan, 0) if row is None else (values[row], row)
+
+
+def since(values, time):
+    """Where a value is not finite first, if one is."""
+    row = next((row for row, value in enumerate(values) if not math.isfinite(value)), None)
+    return "" if row is None else f"   not finite at time {time[row]:.4g}"
 
 
 def interface_lines(history, ident):
@@ -34,10 +55,10 @@ def interface_lines(history, ident):
 
     normal, tangential = force("FN"), force("FT")
     if normal:
-        peak, row = first_of(normal, max)
-        yield f"interface {ident}: largest normal force {peak:.5g} at time {time[row]:.4g}"
-        if tangential and max(tangential) > 0:
-            yield f"interface {ident}: largest friction force {max(tangential):.5g}"
+        peak, row = largest(normal)
+        yield f"interface {ident}: largest normal force {peak:.5g} at time {time[row]:.4g}{since(normal, time)}"
+        if tangential and largest(tangential)[0] > 0:
+            yield f"interface {ident}: largest friction force {largest(tangential)[0]:.5g}{since(tangential, time)}"
     count = history.get(f"INTER/{ident}/NC")
     if count and max(count) > 0:
         rows = [row for row, value in enumerate(count) if value > 0]
@@ -65,6 +86,7 @@ def main():
     for what, pattern in known:
         for file in sorted(folder.glob(pattern)):
             print(f"  {file.name:<28}{what}")
+    print(f"Outcome: {outcome_of(folder)}")
     print(f"What they show at time {time[-1]:.4g} ({len(time)} rows):")
     terms = [("internal energy", "IE"), ("hourglass energy", "HE"), ("kinetic energy", "KE"), ("rotational kinetic energy", "KER"),
              ("stored in contact", "CE"), ("friction work", "FW"), ("contact damping", "DW"), ("external work", "EXTW"),
@@ -74,11 +96,12 @@ def main():
     for what, name in terms:
         values = history.get(f"GLOBAL/{name}")
         if values:
-            print(f"  {what:<30}{values[-1]:>14.6g}   largest {max(values, key=abs):.6g}")
+            print(f"  {what:<30}{values[-1]:>14.6g}   largest {largest(values)[0]:.6g}{since(values, time)}")
     error = history.get("GLOBAL/ERR")
     if error:
-        worst, row = first_of(error, lambda values: max(values, key=abs))
-        print(f"  {'error of the balance':<30}{100 * error[-1]:>13.4f}%   worst {100 * worst:.4f}% at time {time[row]:.4g}")
+        worst, row = largest(error)
+        worst_text = since(error, time).strip() or f"{100 * worst:.4f}% at time {time[row]:.4g}"
+        print(f"  {'error of the balance':<30}{100 * error[-1]:>13.4f}%   worst {worst_text}")
     for ident in sorted({name.split("/")[1] for name in history if name.startswith("INTER/")}, key=int):
         for line in interface_lines(history, ident):
             print(f"  {line}")

@@ -132,6 +132,21 @@ class Summary(Tree):
         self.assertIn("worst -2.0000% at time 1", output)
         self.assertRegex(output, r"kinetic energy at the start +10\n")
         self.assertIn("up to 7 nodes", output)
+        self.assertIn("Outcome: not known", output)
+
+    def test_a_run_that_went_wrong_does_not_look_finished(self):
+        self.write("x_th.csv", "time,GLOBAL/IE,GLOBAL/KE,GLOBAL/ERR,INTER/1/FNX,INTER/1/FNY,INTER/1/FNZ\n"
+                               "0,0,10,0,0,0,0\n1,4,6,-0.02,3,0,4\n2,1,inf,nan,nan,0,0\n")
+        self.write("run.json", '{"outcome": {"kind": "failed", "message": "the kinetic energy is not finite"}}')
+        status, output = run("scripts/summarise_run.py", self.root)
+        self.assertEqual(status, 0)
+        self.assertIn("Outcome: failed: the kinetic energy is not finite\n", output)
+        self.assertIn("worst not finite at time 2\n", output)
+        self.assertIn("largest 10   not finite at time 2\n", output)
+        self.assertIn("largest normal force 5 at time 1   not finite at time 2\n", output)
+        for kind, words in (("running", "not ended"), ("interrupted", "interrupted"), ("finished", "finished")):
+            self.write("run.json", '{"outcome": {"kind": "%s"}}' % kind)
+            self.assertIn(f"Outcome: {words}", run("scripts/summarise_run.py", self.root)[1])
 
     def test_an_empty_folder_is_an_error(self):
         self.assertEqual(run("scripts/summarise_run.py", self.root)[0], 1)
