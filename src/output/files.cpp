@@ -68,6 +68,25 @@ void PendingFile::write(std::string_view piece) {
   if (const int error = write_all(descriptor_, piece); error != 0) fail("write", path_, error);
 }
 
+namespace {
+
+/// The file that a rename may replace: what a link points to.
+std::filesystem::path replaceable(const std::filesystem::path& path) {
+  std::error_code error;
+  const bool link = std::filesystem::is_symlink(path, error);
+  const std::filesystem::file_status there = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(there)) fail("write", path, EISDIR);
+  if (link && !std::filesystem::exists(there)) fail("write", path, ENOENT);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    throw RunError(fmt::format("cannot write '{}': it is no regular file", path.string()));
+  }
+  return link ? std::filesystem::canonical(path) : path;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& path) : PendingFile(replaceable(path)) {}
+
 void AtomicFile::write(std::string_view piece) {
   PendingFile::write(piece);
   size_ += piece.size();

@@ -61,8 +61,8 @@ class PendingFile {
 /// A file that is written in pieces and renamed at the end: readers see the old content or the new.
 class AtomicFile : public PendingFile {
  public:
-  /// @throws RunError
-  explicit AtomicFile(std::filesystem::path path) : PendingFile(std::move(path)) {}
+  /// A link to a file stays, the file gets the content. @throws RunError, also when the path names something that is no regular file
+  explicit AtomicFile(const std::filesystem::path& path);
 
   void write(std::string_view piece);  ///< @throws RunError
   /// Over what is there: as long as that. @throws RunError

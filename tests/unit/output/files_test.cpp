@@ -2,6 +2,7 @@
 #include "output/files.hpp"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 
@@ -111,6 +112,30 @@ TEST(AppendFile, AnUnwritableFolderIsNamed) {
     const AppendFile file(path);
     FAIL() << "nothing was thrown";
   } catch (const RunError& e) { EXPECT_EQ(std::string(e.what()), "cannot write '" + path.string() + "': No such file or directory"); }
+}
+
+TEST(WriteAtomically, WriteThroughALinkAndLeaveWhatIsNoFile) {
+  const abut::test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "file", link = folder.path() / "link", queue = folder.path() / "queue";
+  write_atomically(file, "old");
+  std::filesystem::create_symlink("file", link);
+  write_atomically(link, "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(abut::test::slurp(file), "new");
+  ASSERT_EQ(::mkfifo(queue.c_str(), 0600), 0);
+  std::filesystem::create_symlink("queue", folder.path() / "to_queue");
+  std::filesystem::create_symlink("nowhere", folder.path() / "dangling");
+  const auto said = [](const std::filesystem::path& path) -> std::string {
+    try {
+      write_atomically(path, "text");
+    } catch (const RunError& e) { return e.what(); }
+    return "";
+  };
+  for (const std::filesystem::path& path : {queue, folder.path() / "to_queue"})
+    EXPECT_EQ(said(path), "cannot write '" + path.string() + "': it is no regular file");
+  EXPECT_EQ(said(folder.path()), "cannot write '" + folder.path().string() + "': Is a directory");
+  EXPECT_EQ(said(folder.path() / "dangling"), "cannot write '" + (folder.path() / "dangling").string() + "': No such file or directory");
+  EXPECT_TRUE(std::filesystem::is_fifo(queue));
 }
 
 }  // namespace
