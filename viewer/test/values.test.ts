@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { NO_VALUE, TOP, type ChunkInfo } from "../src/data/chunk";
-import { allFindings, type Frame, type RunManifest } from "../src/data/document";
+import { allFindings, errorText, outcomeText, type Frame, type RunManifest } from "../src/data/document";
 import { chunkRange, componentsOf, fieldRange, scalarQuanta, valueAt } from "../src/data/fields";
 import { columnDimension, controllerShares, energyLines, errorLines, interfaceIds, interfaceLines, nearestIndex } from "../src/data/series";
 import { formatNumber, plural, unitName } from "../src/data/units";
@@ -123,4 +123,21 @@ test("findings: worst first, and what the reader repeats as text only once", () 
     allFindings(run).map((f) => f.code),
     ["deck.card", "contact.energy_made", "contact.crossed", "contact.clearance"],
   );
+});
+
+test("how the run ended: a manifest that still says running is of a run without an end", () => {
+  const of = (outcome?: RunManifest["outcome"]) => outcomeText({ outcome } as unknown as RunManifest);
+  assert.equal(of({ kind: "finished", message: "" }).short, "finished");
+  assert.equal(of({ kind: "failed", message: "the energy is not finite" }).long, "failed: the energy is not finite");
+  assert.equal(of({ kind: "interrupted", message: "" }).long, "interrupted");
+  for (const outcome of [undefined, { kind: "running" }]) {
+    assert.equal(of(outcome).short, "not ended");
+    assert.match(of(outcome).long, /stopped from outside/);
+  }
+});
+
+test("an energy error that is not a number says so", () => {
+  assert.equal(errorText(0.0123, 2), "1.2 %");
+  assert.equal(errorText(null, 2), "not finite");
+  assert.equal(errorText(undefined, 2), "");
 });

@@ -1,5 +1,6 @@
 // The report's document: what src/report/ writes beside the chunks.
 import type { ChunkInfo } from "./chunk";
+import { formatNumber } from "./units";
 
 export interface Finding {
   interface?: number;
@@ -44,7 +45,8 @@ export interface RunManifest {
   timings?: { name: string; seconds: number }[];
   energies?: Record<string, number | null>;
   mass?: { total: number; added: number; error: number };
-  worst?: { ERR?: { value: number; time: number }; CX?: { value: number; time: number } };
+  /** A value that is not a number is null. */
+  worst?: { ERR?: { value: number | null; time: number }; CX?: { value: number | null; time: number } };
 }
 
 export interface FieldInfo {
@@ -86,7 +88,23 @@ export interface ReportDocument {
   fields?: FieldInfo[];
   fields_left_out?: boolean;
   frames: Frame[];
+  /** States of the animation that could not be read. */
+  states_left_out?: number;
   first?: number;
+}
+
+/** How the run ended. A manifest says "running" until the run itself writes its end; a run that is stopped from outside does not. */
+export function outcomeText(run: RunManifest): { short: string; long: string } {
+  const { kind = "running", message } = run.outcome ?? {};
+  if (kind === "running") return { short: "not ended", long: "not ended: the run wrote no end; it goes on, or was stopped from outside" };
+  if (kind === "finished") return { short: kind, long: "reached its end" };
+  return { short: kind, long: message ? `${kind}: ${message}` : kind };
+}
+
+/** A share as text; null is what is not a number. Empty when there is none. */
+export function errorText(value: number | null | undefined, digits: number): string {
+  if (value === undefined) return "";
+  return value === null ? "not finite" : `${formatNumber(100 * value, digits)} %`;
 }
 
 /** Findings of the inspection, of the run, and of the reader, each once: the reader's list repeats those of the inspection as text. */

@@ -1,6 +1,5 @@
 // The line at the top: what ran, how it ended, where to look first.
-import { allFindings, type ReportDocument } from "../data/document";
-import { formatNumber } from "../data/units";
+import { allFindings, errorText, outcomeText, type ReportDocument } from "../data/document";
 import { h, iconButton } from "./dom";
 
 export interface HeaderActions {
@@ -19,7 +18,7 @@ function chip(tone: string, text: string, title: string, onclick?: () => void): 
 export function header({ run }: ReportDocument, actions: HeaderActions): HTMLElement {
   const counts = { error: 0, warning: 0, note: 0 };
   for (const f of allFindings(run)) counts[f.severity]++;
-  const kind = run.outcome?.kind ?? "running";
+  const outcome = outcomeText(run);
   const error = run.energies?.["ERR"];
   const plural = (count: number, noun: string) => `${count} ${noun}${count > 1 ? "s" : ""}`;
   return h(
@@ -30,11 +29,11 @@ export function header({ run }: ReportDocument, actions: HeaderActions): HTMLEle
     h(
       "div",
       { class: "chips" },
-      chip(kind === "finished" ? "good" : "bad", kind, run.outcome?.message ?? "the run left no outcome: it was stopped from outside"),
-      error !== undefined && error !== null
+      chip(outcome.short === "finished" ? "good" : "bad", outcome.short, outcome.long),
+      error !== undefined
         ? chip(
-            Math.abs(error) < 0.01 ? "good" : Math.abs(error) < 0.05 ? "warn" : "bad",
-            `energy error ${formatNumber(100 * error, 2)} %`,
+            error === null ? "bad" : Math.abs(error) < 0.01 ? "good" : Math.abs(error) < 0.05 ? "warn" : "bad",
+            `energy error ${errorText(error, 2)}`,
             "error of the energy balance at the end",
             actions.openError,
           )

@@ -1,5 +1,5 @@
 // The panels at the left: what ran, parts, what was picked.
-import type { ReportDocument } from "../data/document";
+import { errorText, outcomeText, type ReportDocument } from "../data/document";
 import { formatCount, formatNumber, plural, unitName } from "../data/units";
 import { css, partColor } from "../view/colormap";
 import { h, icon, iconButton } from "./dom";
@@ -26,7 +26,6 @@ export function summaryPanel(document: ReportDocument): HTMLElement {
   const m = run.model;
   const outcome = run.outcome;
   const e = run.energies;
-  const percent = (v: number | null | undefined) => (v === null || v === undefined ? undefined : `${formatNumber(100 * v, 3)} %`);
   const elements = m.shells + m.sh3ns + m.bricks + m.tetras;
   const energyUnit = unitName(m.units, "energy");
   const out = h("div", { class: "panel" });
@@ -34,24 +33,20 @@ export function summaryPanel(document: ReportDocument): HTMLElement {
     section(
       "Run",
       rows([
-        [
-          "outcome",
-          outcome
-            ? outcome.kind === "finished"
-              ? "reached its end"
-              : `${outcome.kind}${outcome.message ? `: ${outcome.message}` : ""}`
-            : undefined,
-        ],
+        ["outcome", outcomeText(run).long],
         [
           "time",
           outcome?.time === undefined ? undefined : `${formatNumber(outcome.time)} ${m.units.time} of ${formatNumber(m.t_end ?? NaN)}`,
         ],
         ["cycles", outcome?.cycles === undefined ? undefined : formatCount(outcome.cycles)],
         ["wall time", outcome?.wall_seconds === undefined ? undefined : `${formatNumber(outcome.wall_seconds, 3)} s`],
-        ["energy error", percent(e?.["ERR"])],
-        ["worst", run.worst?.ERR ? `${percent(run.worst.ERR.value)} at ${formatNumber(run.worst.ERR.time, 3)} ${m.units.time}` : undefined],
+        ["energy error", errorText(e?.["ERR"], 3)],
+        [
+          "worst",
+          run.worst?.ERR ? `${errorText(run.worst.ERR.value, 3)} at ${formatNumber(run.worst.ERR.time, 3)} ${m.units.time}` : undefined,
+        ],
         ["contact CX", e?.["CX"] === undefined || e["CX"] === null ? undefined : `${formatNumber(e["CX"], 3)} ${energyUnit}`],
-        ["added mass", run.mass && run.mass.added > 0 ? percent(run.mass.error) : undefined],
+        ["added mass", run.mass && run.mass.added > 0 ? errorText(run.mass.error, 3) : undefined],
       ]),
     ),
     section(
@@ -62,7 +57,10 @@ export function summaryPanel(document: ReportDocument): HTMLElement {
         ["shells", m.shells + m.sh3ns > 0 && m.bricks + m.tetras > 0 ? formatCount(m.shells + m.sh3ns) : undefined],
         ["solids", m.bricks + m.tetras > 0 && m.shells + m.sh3ns > 0 ? formatCount(m.bricks + m.tetras) : undefined],
         ["units", [m.units.mass, m.units.length, m.units.time].join(", ")],
-        ["states", document.frames.length],
+        [
+          "states",
+          document.states_left_out ? `${document.frames.length}; ${document.states_left_out} could not be read` : document.frames.length,
+        ],
       ]),
     ),
   );
