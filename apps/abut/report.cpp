@@ -22,6 +22,7 @@ int report_command(const ReportArguments& arguments) {
   if (target.empty()) target = arguments.run / "report.html";
   const report::Written w =
       report::write_report(arguments.run, target, page, arguments.all_fields ? report::Fields::all : report::Fields::automatic);
+  for (const std::string& state : w.left_out) fmt::print(stderr, "abut: warning: {}; it is left out\n", state);
   if (!arguments.quiet) {
     fmt::print("{}: {} states, {} elements, {} faces shown, {:.1f} MB; open it in a browser\n", target.string(), w.states, w.elements,
                w.faces, static_cast<double>(w.bytes) / 1e6);

@@ -1,9 +1,11 @@
 #include "report/grid.hpp"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -39,6 +41,17 @@ std::optional<Shape> shape_of(int vtk_type) {
 }
 
 void read(vtkXMLUnstructuredGridReader* reader, const std::filesystem::path& file, bool with_fields) {
+  // What VTK says of a damaged file comes here instead of onto the console.
+  bool faulty = false;
+  vtkNew<vtkCallbackCommand> fault;
+  fault->SetClientData(&faulty);
+  fault->SetCallback([](vtkObject*, unsigned long, void* data, void*) { *static_cast<bool*>(data) = true; });
+  reader->SetReaderErrorObserver(fault);
+  reader->SetParserErrorObserver(fault);
+  for (const unsigned long said : {vtkCommand::ErrorEvent, vtkCommand::WarningEvent}) {
+    reader->AddObserver(said, fault);
+    reader->GetExecutive()->AddObserver(said, fault);
+  }
   if (reader->CanReadFile(file.c_str()) == 0) throw RunError(file.string() + ": not a readable animation state");
   reader->SetFileName(file.c_str());
   reader->UpdateInformation();
@@ -54,7 +67,9 @@ void read(vtkXMLUnstructuredGridReader* reader, const std::filesystem::path& fil
     }
   }
   reader->Update();
-  if (reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) throw RunError(file.string() + ": damaged animation state");
+  reader->RemoveObserver(fault);
+  reader->GetExecutive()->RemoveObserver(fault);
+  if (faulty || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) throw RunError(file.string() + ": damaged animation state");
 }
 
 std::vector<Id> ids(vtkDataSetAttributes* attributes, const char* name) {

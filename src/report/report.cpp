@@ -1,5 +1,6 @@
 #include "report/report.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -29,7 +30,9 @@ Json read_manifest(const std::filesystem::path& run) {
   const std::filesystem::path file = run / "run.json";
   if (!std::filesystem::exists(file)) throw RunError(run.string() + ": no run.json: this is not a folder that `abut run` filled");
   Json manifest = Json::parse(slurp(file), nullptr, false);
-  if (manifest.is_discarded() || !manifest.contains("model") || !manifest.contains("files")) {
+  const auto is_object = [&](const char* key) { return manifest.contains(key) && manifest[key].is_object(); };
+  const auto names = [](const Json& files) { return std::all_of(files.begin(), files.end(), [](const Json& f) { return f.is_string(); }); };
+  if (manifest.is_discarded() || !is_object("model") || !is_object("files") || !names(manifest["files"])) {
     throw RunError(file.string() + ": not a manifest of abut");
   }
   return manifest;

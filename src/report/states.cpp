@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -242,20 +244,60 @@ std::vector<StateFile> read_index(const std::filesystem::path& index) {
         name.replace(p, std::string_view(code).size(), character);
       }
     }
-    out.push_back({std::stod((*i)[1]), index.parent_path() / name});
+    const std::string time = (*i)[1];
+    char* rest = nullptr;
+    out.push_back({std::strtod(time.c_str(), &rest), index.parent_path() / name});
+    if (rest == time.c_str()) throw RunError(index.string() + ": '" + time + "' is not a time");
   }
   return out;
 }
+
+/// The first state that can be read. @throws RunError of the first of all when there is none
+Grid first_readable(const std::vector<StateFile>& states) {
+  for (const StateFile& state : states) {
+    try {
+      return read_grid(state.file);
+    } catch (const RunError&) {}
+  }
+  return read_grid(states.front().file);
+}
+
+/// Which elements are gone in the last state that can be read.
+std::vector<std::uint8_t> gone_at_the_end(const std::vector<StateFile>& states, const std::vector<Cell>& first) {
+  for (auto state = states.rbegin(); state != states.rend(); ++state) {
+    try {
+      return marks(places(first, read_grid(state->file, false).cells), false);
+    } catch (const RunError&) {}
+  }
+  return std::vector<std::uint8_t>(first.size(), 0);
+}
+
+/// A state with its elements found in the first one, and the shown fields.
+struct State {
+  Grid grid;
+  std::vector<Index> place;  ///< #cells of the first state
+  std::vector<const Field*> fields;
+
+  /// @throws RunError when it cannot be read or is not of the run of `first`
+  State(const std::filesystem::path& file, const Grid& first, const std::vector<Shown>& shown) : grid(read_grid(file)) {
+    const auto refuse = [&file](const std::string& why) { throw RunError(file.string() + ": " + why); };
+    if (grid.points.size() != first.points.size()) refuse("another number of nodes than the first state");
+    place = places(first.cells, grid.cells);
+    for (const Shown& s : shown) {
+      fields.push_back(Grid::find(s.on_nodes ? grid.node_fields : grid.cell_fields, s.source));
+      if (fields.back() == nullptr) refuse("no field " + s.source);
+    }
+  }
+};
 
 Written add_states(const std::vector<StateFile>& states, const std::filesystem::path& contact_file, Fields choice, ChunkStore& store,
                    Json& document) {
   Written written;
   document["frames"] = Json::array();
   if (states.empty()) return written;
-  const Grid first = read_grid(states.front().file);
-  const std::vector<Cell> last = states.size() > 1 ? read_grid(states.back().file, false).cells : first.cells;
+  const Grid first = first_readable(states);
   const std::vector<ContactSurface> contact = read_contact_surfaces(contact_file);
-  const Mesh mesh = make_mesh(first, marks(places(first.cells, last), false), contact);
+  const Mesh mesh = make_mesh(first, gone_at_the_end(states, first.cells), contact);
   const double all_values = static_cast<double>(mesh.nodes.size() + mesh.cells.size()) * static_cast<double>(states.size());
   const bool all = choice == Fields::all || all_values < many_values;
   const std::vector<Shown> shown = choose_fields(first, all);
@@ -270,36 +312,39 @@ Written add_states(const std::vector<StateFile>& states, const std::filesystem::
   document["fields_left_out"] = !all;
 
   double highest = -1.0;
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    const Grid grid = k == 0 ? first : read_grid(states[k].file);
-    if (grid.points.size() != first.points.size())
-      throw RunError(states[k].file.string() + ": another number of nodes than the first state");
-    const std::vector<Index> place = places(first.cells, grid.cells);
+  for (const StateFile& file : states) {
+    std::optional<State> state;
+    try {
+      state.emplace(file.file, first, shown);
+    } catch (const RunError& error) {
+      written.left_out.emplace_back(error.what());
+      continue;
+    }
     std::vector<Index> cells;
-    for (const Index c : mesh.cells) cells.push_back(place[at(c)]);
-    Json frame{{"time", states[k].time}, {"cycle", grid.cycle}, {"values", Json::array()}};
-    for (const Shown& s : shown) {
-      const Field* field = Grid::find(s.on_nodes ? grid.node_fields : grid.cell_fields, s.source);
-      if (field == nullptr) throw RunError(states[k].file.string() + ": no field " + s.source);
-      const std::vector<float> values = gather(s, *field, s.on_nodes ? mesh.nodes : cells);
+    for (const Index c : mesh.cells) cells.push_back(state->place[at(c)]);
+    Json frame{{"time", file.time}, {"cycle", state->grid.cycle}, {"values", Json::array()}};
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const Shown& s = shown[i];
+      const std::vector<float> values = gather(s, *state->fields[i], s.on_nodes ? mesh.nodes : cells);
       Chunk chunk = quantised(values, s.components);
       if (s.name == "contact_pressure" && chunk.high[0] > highest) {
         highest = chunk.high[0];
-        document["first"] = k;
+        document["first"] = document["frames"].size();
       }
       Json value = store.add(std::move(chunk));
       if (s.components == 3) value["norm"] = lengths(values);
       frame["values"].push_back(std::move(value));
     }
-    const std::vector<std::uint8_t> hidden = mesh.faces.hidden(marks(place, true));
+    const std::vector<std::uint8_t> hidden = mesh.faces.hidden(marks(state->place, true));
     if (std::find(hidden.begin(), hidden.end(), 1) != hidden.end()) {
       frame["hidden"] = store.add(bytes(hidden));
-      frame["deleted"] = first.cells.size() - grid.cells.size();
+      frame["deleted"] = first.cells.size() - state->grid.cells.size();
     }
     document["frames"].push_back(std::move(frame));
   }
-  if (!(highest > 0.0)) document["first"] = states.size() - 1;
-  written.states = states.size();
+  written.states = document["frames"].size();
+  if (!(highest > 0.0)) document["first"] = written.states - 1;
+  document["states_left_out"] = written.left_out.size();
   written.nodes = mesh.nodes.size();
   written.faces = mesh.faces.faces().size();
   written.elements = first.cells.size();

@@ -242,5 +242,41 @@ TEST_F(ReportTest, WhatIsNoRunFolderIsRefusedByName) {
   EXPECT_NE(message().find("scene_00000.vtu"), std::string::npos);
 }
 
+// A full disk or a copy that broke off cuts one state, or loses it: the others are shown, and VTK says nothing on the console.
+TEST_F(ReportTest, AStateThatCannotBeReadIsLeftOut) {
+  const auto state = [this](int k) { return folder_.path() / "scene_anim" / ("scene_0000" + std::to_string(k) + ".vtu"); };
+  for (int broken = 0; broken < 3; ++broken) {
+    for (const bool missing : {false, true}) {
+      run({0.0, 0.5, 1.0});
+      if (missing) {
+        std::filesystem::remove(state(broken));
+      } else {
+        std::filesystem::resize_file(state(broken), std::filesystem::file_size(state(broken)) / 2);
+      }
+      ::testing::internal::CaptureStderr();
+      write();
+      EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+      EXPECT_EQ(written_.states, 2u);
+      ASSERT_EQ(written_.left_out.size(), 1u);
+      EXPECT_EQ(written_.left_out.front(),
+                state(broken).string() + (missing ? ": not a readable animation state" : ": damaged animation state"));
+      EXPECT_EQ(document_["frames"].size(), 2u);
+      EXPECT_EQ(document_["frames"][1]["time"], broken == 2 ? 0.5 : 1.0);
+      EXPECT_EQ(document_["states_left_out"], 1);
+      EXPECT_LT(document_["first"].get<std::size_t>(), 2u);
+    }
+  }
+}
+
+TEST_F(ReportTest, AManifestOfOtherTypesIsNone) {
+  for (const char* text : {"{\"model\":1,\"files\":2}", "[1]", "{\"model\":{},\"files\":{\"history\":3}}", "{\"model\":{},\"files\":[]}"}) {
+    std::ofstream(folder_.path() / "run.json") << text;
+    try {
+      (void)write_report(folder_.path(), file(), page, Fields::automatic);
+      ADD_FAILURE() << text;
+    } catch (const RunError& e) { EXPECT_EQ(std::string(e.what()), (folder_.path() / "run.json").string() + ": not a manifest of abut"); }
+  }
+}
+
 }  // namespace
 }  // namespace abut::report
