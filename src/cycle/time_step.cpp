@@ -159,8 +159,9 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
   if (control.dt_max < step) take(control.dt_max, {StepController::Kind::fixed, 0});
   if (s.times.cycle == 0 && control.dt_initial > 0.0 && control.dt_initial < step)
     take(control.dt_initial, {StepController::Kind::fixed, 0});
-  if (step > 1e29) step = control.t_end > 0.0 ? 1e-3 * control.t_end : 1.0;  // nothing deforms: any step is stable
+  const bool any = step > 1e29;  // nothing deforms: any step is stable. A thousandth of the run, growing to a hundredth
   if (1.1 * previous_step_ < step) step = 1.1 * previous_step_;
+  if (any) step = std::min(step, control.t_end > 0.0 ? (s.times.cycle == 0 ? 1e-3 : 1e-2) * control.t_end : 1.0);
   refuse_endless(s, step, who);
   previous_step_ = step;
   s.times.h_plus = step;

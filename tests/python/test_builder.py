@@ -253,7 +253,7 @@ def test_what_the_reader_refuses():
 
 
 def test_a_model_in_which_all_is_rigid_falls_in_steps():
-    """Nothing limits the step then: it is a thousandth of the run, not the whole of it."""
+    """Nothing limits the step then: it is a thousandth of the run and grows to a hundredth, not the whole of it."""
     b = builder()
     nodes, main = b.nodes(cube()), b.nodes([[0.5, 0.5, 0.5]])
     b.part(b.solid_property(), b.elastic(**STEEL), bricks=[nodes])
@@ -262,5 +262,5 @@ def test_a_model_in_which_all_is_rigid_falls_in_steps():
     b.engine(2.0)
     run = abut.Run(b.build(), threads=1)
     run.advance_to_end()
-    assert 900 < run.cycle < 1100 and run.time == pytest.approx(2.0, rel=2e-3)
-    assert run.displacements[:8, 2] == pytest.approx(np.full(8, -0.5 * 9.81e-3 * run.time**2), rel=2e-3)
+    assert 100 < run.cycle < 200 and run.time == pytest.approx(2.0, rel=1e-2)
+    assert run.displacements[:8, 2] == pytest.approx(np.full(8, -0.5 * 9.81e-3 * run.time**2), rel=2e-2)
