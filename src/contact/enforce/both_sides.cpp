@@ -169,7 +169,7 @@ void BothSides::search(const HostState& host) {
   const auto reach_of = [&](Index node) {
     if (between < 0.0) between = warp(surface_);
     const double distance = reach(node);
-    return distance < 0.0 ? distance : distance + between + (options_.switch_correction ? foresight * options_.gap : 0.0);
+    return distance < 0.0 ? distance : distance + between + (options_.switch_correction ? foresight * narrowest_ : 0.0);
   };
   const bool first = stale_ || held_last_.size() != held_.x().size() || surface_last_.size() != surface_.x().size();
   const Motion motion = first ? Motion{} : motion_between(held_.x(), held_last_, surface_.x(), surface_last_);
@@ -212,10 +212,6 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   std::fill(normal_.begin(), normal_.end(), Vec3{});
   std::fill(tangential_.begin(), tangential_.end(), Vec3{});
   Sums sums;
-  // A friction spring whose pair has opened lets go of what it stored.
-  const auto let_go = [&sums](const Pair& pair) {
-    if (pair.spring > 0.0) sums.friction_work += 0.5 * squared_norm(pair.friction) / pair.spring;
-  };
   if (acts(host)) {
     std::swap(pairs_, previous_);
     pairs_.clear();
@@ -228,22 +224,23 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
       bool touches = false;
       for (const Index facet : facets_of(candidates_, node, scratch_)) {
         while (next < previous_.size() && (previous_[next].node < node || (previous_[next].node == node && previous_[next].facet < facet)))
-          let_go(previous_[next++]);
+          end(host, previous_[next++], sums);
         const bool known = next < previous_.size() && previous_[next].node == node && previous_[next].facet == facet;
-        const std::size_t count = pairs_.size();
-        touches = add_pair(host, node, facet, known ? previous_[next] : Pair{node, facet, 0.0, {}}, stiffness, result, sums) || touches;
-        if (known && (pairs_.size() == count || pairs_.back().spring == 0.0)) let_go(previous_[next]);
+        const bool acts = add_pair(host, node, facet, known ? previous_[next] : Pair{node, facet, 0.0, {}}, stiffness, result, sums);
+        touches = acts || touches;
+        if (known && !acts) end(host, previous_[next], sums);
         if (known) ++next;
       }
       if (touches) in_contact_.push_back(held_.nodes()[at(node)]);
     }
-    while (next < previous_.size()) let_go(previous_[next++]);
-    // No node may cross the gap in one step, near or far (numerics.md 2.5, third term).
-    if (fastest_ > 0.0) result.kinematic_step = std::min(result.kinematic_step, 0.9 * narrowest_ / fastest_);
+    while (next < previous_.size()) end(host, previous_[next++], sums);
+    // No node may cross the gap in one step, near or far (numerics.md 2.5, third term), nor go further than was looked ahead.
+    if (fastest_ > 0.0) result.kinematic_step = std::min(result.kinematic_step, kinematic * narrowest_ / fastest_);
+    if (fastest_ > 0.0 && options_.switch_correction) result.kinematic_step = std::min(result.kinematic_step, looked_ahead());
   } else {
     // Outside of the time window nothing acts; what initial penetrations take from the gap stays for a later birth.
     for (Pair& pair : pairs_) {
-      let_go(pair);
+      end(host, pair, sums);
       Pair asleep{pair.node, pair.facet};
       asleep.offset = pair.offset;
       pair = asleep;

@@ -31,8 +31,9 @@ class BothSides final : public InterfaceModel {
   void load(HistoryReader& in) override;
 
  private:
-  /// Pairs that will touch are looked for up to this share of the gap beyond it; the search lists hold them.
-  static constexpr double foresight = 0.5;
+  /// Pairs that will touch are looked for up to this share of the least gap beyond their own, which is more than any node moves in a step
+  /// (`kinematic`); the search lists hold them.
+  static constexpr double foresight = 1.0, kinematic = 0.9;
 
   /// A pair with p > 0 and what it carries to the next cycle.
   struct Pair {
@@ -84,11 +85,16 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] Spring spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Opening& m,
                               const BothSidesForce& law) const;
   [[nodiscard]] double stepped(const HostState& host, const Pair& old, double rate) const;
-  [[nodiscard]] double lasting_tangent(double k0, double gap, double p, const Opening& m) const;
+  [[nodiscard]] double stop_depth(double k0, double gap, double p, const Opening& m) const;
   bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                 Sums& sums);
   [[nodiscard]] double offset_of(const Pair& old, double gap, double penetration) const;
-  void foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness, Sums& sums) const;
+  void foresee(const HostState& host, const Pair& pair, std::span<double> stiffness) const;
+  void end(const HostState& host, const Pair& old, Sums& sums) const;
+  [[nodiscard]] double friction_spring(const HostState& host, Index node, Index facet) const;
+  [[nodiscard]] double handed(const HostState& host, double elastic, const BothSidesForce& law, double spring, const Opening& m) const;
+  [[nodiscard]] double looked_ahead() const;
+  [[nodiscard]] double foreseen_way() const;
   [[nodiscard]] double fastest(const HostState& host) const;
   [[nodiscard]] double discrete_work(const HostState& host);
 

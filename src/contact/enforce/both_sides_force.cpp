@@ -53,13 +53,11 @@ double BothSides::stepped(const HostState& host, const Pair& old, double rate) c
   return made_by_changing_step(old.force, step_before(host.dt, host.dt_bar_old), host.dt, old.rate, rate);
 }
 
-/// Tangent of the elastic law at the depth where the spring alone stops the pair (at most half the gap beyond p's own): energy keeps it
-/// the same from the first touch to the last, and with it the step.
-double BothSides::lasting_tangent(double k0, double gap, double p, const Opening& m) const {
-  const double inside = std::max(p, 0.0);
-  const double stop = m.inverse_mass > 0.0 ? std::sqrt(inside * inside + m.rate * m.rate / (k0 * m.inverse_mass)) : inside;
-  const double ratio = gap / (gap - std::max(inside, std::min(stop, 0.5 * gap)));
-  return k0 * ratio * ratio;
+/// Depth at which the spring alone stops the pair (at most half the gap beyond p's own). Energy keeps it the same from the first touch to
+/// the last, and with it the tangent there and the step.
+double BothSides::stop_depth(double k0, double gap, double p, const Opening& m) const {
+  if (m.inverse_mass <= 0.0) return p;
+  return std::max(p, std::min(std::sqrt(p * p + m.rate * m.rate / (k0 * m.inverse_mass)), 0.5 * gap));
 }
 
 /// Elastic force and stored energy of a cycle: the law's own, but for the cycles in which the pair starts or ends (switching.hpp).
@@ -73,6 +71,22 @@ BothSides::Spring BothSides::spring(const HostState& host, const Pair& old, doub
   const double others = before - law.damping * m.rate * m.inverse_mass;
   const Switched s = switched_spring({NormalLaw{gap, true}, k0, p, host.dt, m.rate, m.inverse_mass, others}, fresh);
   return {s.force, s.stored};
+}
+
+/// Tangential stiffness of the incremental form.
+double BothSides::friction_spring(const HostState& host, Index node, Index facet) const {
+  if (!options_.rubs() || options_.friction_form == BothSidesOptions::Friction::viscous) return 0.0;
+  return options_.filter.weight(host.dt_bar_old) * pair_stiffness(node, facet);
+}
+
+/// What a pair hands to the nodal sums: dampers count with the shorter of the last step and the one that the spring alone allows, which
+/// says what comes where the last step was much longer, or was none.
+double BothSides::handed(const HostState& host, double elastic, const BothSidesForce& law, double spring, const Opening& m) const {
+  const double last = host.dt > 0.0 ? 1.0 / host.dt : 0.0;
+  const double inverse_h = options_.reference_step ? last : std::max(2.0 * last, std::sqrt(elastic * m.inverse_mass));
+  const double viscous = options_.rubs() ? options_.friction_viscosity * law.critical * inverse_h : 0.0;
+  const double tangent = std::max(elastic + law.damping * inverse_h, viscous);
+  return options_.reference_step ? tangent : std::max(tangent, spring);
 }
 
 Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, const Vec3& normal, const Vec3& v, double vn,
@@ -90,7 +104,7 @@ Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, 
     sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(vt, force + old.friction));
     return force;
   }
-  pair.spring = a * pair_stiffness(pair.node, pair.facet);
+  pair.spring = friction_spring(host, pair.node, pair.facet);
   Vec3 force = old.friction + (pair.spring * host.dt_bar_old) * v;
   force -= dot(force, normal) * normal;
   const double size = norm(force);
@@ -114,7 +128,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   const BothSidesContact& c = met.contact;
   const double k = pair_stiffness(node, facet);
   if (c.penetration <= 0.0) {
-    if (k > 0.0) foresee(host, node, facet, 0.5 * k, old, stiffness, sums);
+    if (k > 0.0 && c.distance < met.gap + foreseen_way()) foresee(host, {node, facet}, stiffness);
     return false;
   }
   if (met.gap - c.penetration < exhausted * met.gap) {
@@ -125,6 +139,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   const double p = c.penetration - pair.offset;
   const double gap = met.gap - pair.offset;
   if (p <= 0.0 || k <= 0.0) {
+    if (k > 0.0) foresee(host, pair, stiffness);
     pairs_.push_back(pair);
     return false;
   }
@@ -163,11 +178,9 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   const Index own = held_own_[at(node)];
   normal_[at(own)] += normal;
   tangential_[at(own)] -= pair.friction;
-  const double inverse_h = (options_.reference_step ? 1.0 : 2.0) * (host.dt > 0.0 ? 1.0 / host.dt : 0.0);
-  const double viscous = options_.rubs() ? options_.friction_viscosity * law.critical * inverse_h : 0.0;
-  const double elastic_tangent = options_.switch_correction ? lasting_tangent(0.5 * k, gap, p, m) : law.tangent;
-  double tangent = std::max(elastic_tangent + law.damping * inverse_h, viscous);
-  if (!options_.reference_step) tangent = std::max(tangent, pair.spring);
+  const double ratio = gap / (gap - stop_depth(0.5 * k, gap, p, m));
+  const double lasting = options_.switch_correction ? 0.5 * k * ratio * ratio : law.tangent;
+  const double tangent = handed(host, lasting, law, pair.spring, m);
   stiffness[self] += tangent;
   double smallest = mass > 0.0 ? 2.0 * mass / tangent : 1e30;
   for (std::size_t i = 0; i < corners; ++i) {
@@ -192,30 +205,51 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   return true;
 }
 
-/// A pair that will touch within two of the longest steps so far already counts in the nodal sums of stiffness. The step is then short when
-/// it touches: leap-frog makes f (h - h')(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 3 and 7a).
-/// The damper of a pair that has just opened worked over the first half of the last step.
-void BothSides::foresee(const HostState& host, Index node, Index facet, double k0, const Pair& old, std::span<double> stiffness,
-                        Sums& sums) const {
-  const double ahead = std::min(2.0 * longest_step_ * fastest_, foresight * options_.gap);
-  if (!options_.switch_correction || !(ahead > 0.0)) return;
-  const double gap = pair_gap(node, facet);
-  const BothSidesContact c = meet(held_, surface_, node, facet, gap + ahead).contact;
-  if (c.penetration <= 0.0) return;
-  const Opening m = opening(host, node, facet, c);
-  const double vn = m.rate;
-  sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * old.damping);
-  sums.stepped += stepped(host, old, vn);
+/// What a pair that has opened or ended still did in the first half of the last step, and what its friction spring lets go of.
+void BothSides::end(const HostState& host, const Pair& old, Sums& sums) const {
+  if (old.spring > 0.0) sums.friction_work += 0.5 * squared_norm(old.friction) / old.spring;
+  if (old.acts == 0) return;
+  const double gap = pair_gap(old.node, old.facet);
+  const Met near = meet(held_, surface_, old.node, old.facet, gap);
+  const BothSidesContact c =
+      near.contact.penetration > 0.0 ? near.contact : meet(held_, surface_, old.node, old.facet, 1.5 * near.contact.distance).contact;
+  const Opening m = opening(host, old.node, old.facet, c);
+  sums.damping_work += std::max(0.0, -0.5 * host.dt * m.rate * old.damping);
+  sums.stepped += stepped(host, old, m.rate);
   if (options_.friction_form == BothSidesOptions::Friction::viscous) {
-    sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(m.velocity - vn * c.normal, old.friction));
+    sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(m.velocity - m.rate * c.normal, old.friction));
   }
-  const double p = c.penetration - ahead + std::min(-2.0 * longest_step_ * vn, ahead);
+}
+
+/// Time that is looked ahead, two of the longest steps so far: the coming step is not longer (kinematic_step). Before the first step: as long
+/// as any can be.
+double BothSides::looked_ahead() const { return longest_step_ > 0.0 ? 2.0 * longest_step_ : foresight * narrowest_ / fastest_; }
+
+/// How far any pair can come in that time; no step goes further than a part of the least gap.
+double BothSides::foreseen_way() const {
+  if (!options_.switch_correction || fastest_ <= 0.0) return 0.0;
+  return std::min(looked_ahead() * fastest_, foresight * narrowest_);
+}
+
+/// A pair that will touch soon already counts in the nodal sums of stiffness. The step is then short when
+/// it touches: leap-frog makes f (h - h')(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 3 and 7a).
+void BothSides::foresee(const HostState& host, const Pair& pair, std::span<double> stiffness) const {
+  const double ahead = foreseen_way();
+  if (ahead <= 0.0) return;
+  const Met met = meet(held_, surface_, pair.node, pair.facet, pair_gap(pair.node, pair.facet) + ahead);
+  const BothSidesContact& c = met.contact;
+  const Opening m = opening(host, pair.node, pair.facet, c);
+  const double p = c.penetration - pair.offset - ahead + std::min(-looked_ahead() * m.rate, ahead);
   if (p <= 0.0) return;
-  const auto& corner = surface_.surface().local()[at(facet)];
+  const double gap = met.gap - ahead - pair.offset;
+  const double k0 = 0.5 * pair_stiffness(pair.node, pair.facet);
+  const auto& corner = surface_.surface().local()[at(pair.facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
-  const std::size_t self = host_of(held_own_[at(node)]);
-  const BothSidesForce law = both_sides_force(k0, gap, std::min(p, 0.5 * gap), mass_of(host, self), vn, options_.damping);
-  const double tangent = std::max(lasting_tangent(k0, gap, 0.0, m), law.tangent) + 2.0 * law.damping / host.dt;
+  const std::size_t self = host_of(held_own_[at(pair.node)]);
+  const double stop = m.inverse_mass > 0.0 ? stop_depth(k0, gap, 0.0, m) : std::min(p, 0.5 * gap);
+  const double ratio = gap / (gap - stop);
+  const BothSidesForce law = both_sides_force(k0, gap, std::min(p, stop), mass_of(host, self), m.rate, options_.damping);
+  const double tangent = handed(host, k0 * ratio * ratio, law, friction_spring(host, pair.node, pair.facet), m);
   stiffness[self] += tangent;
   for (std::size_t i = 0; i < 4; ++i) {
     if (c.weight[i] > 0.0) stiffness[host_of(surface_own_[at(corner[i])])] += c.weight[i] * tangent;

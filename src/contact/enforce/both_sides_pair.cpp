@@ -64,6 +64,7 @@ BothSidesContact both_sides_contact(const Vec3& node, const std::array<Vec3, 4>&
     const Vec3 r = node - at.point;
     const double d = norm(r);
     const double p = gap - d;
+    out.distance = std::min(out.distance, d);
     if (p <= 0.0) continue;
     std::array<double, 4> weight{};
     weight[i] += at.weight[1];

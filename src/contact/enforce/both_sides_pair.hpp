@@ -19,6 +19,7 @@ namespace abut::contact {
 
 /// Where and how deep a node is in the gap of a facet.
 struct BothSidesContact {
+  double distance = 1e300;         ///< of the node from the facet's nearest point
   double penetration = 0.0;        ///< p; 0: out of reach
   Vec3 normal;                     ///< unit, from the facet to the node
   Vec3 away;                       ///< unit, from the facet's nearest point to the node
