@@ -89,7 +89,7 @@ class BothSides final : public InterfaceModel {
   bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,
                 Sums& sums);
   [[nodiscard]] double offset_of(const Pair& old, double gap, double penetration) const;
-  void foresee(const HostState& host, const Pair& pair, std::span<double> stiffness) const;
+  void foresee(const HostState& host, const Pair& pair, std::span<double> stiffness, StepResult& result) const;
   void end(const HostState& host, const Pair& old, Sums& sums) const;
   [[nodiscard]] double friction_spring(const HostState& host, Index node, Index facet) const;
   [[nodiscard]] double handed(const HostState& host, double elastic, const BothSidesForce& law, double spring, const Opening& m) const;

@@ -17,6 +17,8 @@ namespace {
 
 /// A node whose gap is used up to this share of the gap leaves for good: its force has no finite value any more.
 constexpr double exhausted = 1e-10;
+/// Steps, as long as its spring alone allows them, from which on a pair that will touch counts.
+constexpr double settling = 4.0;
 
 }  // namespace
 
@@ -128,7 +130,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   const BothSidesContact& c = met.contact;
   const double k = pair_stiffness(node, facet);
   if (c.penetration <= 0.0) {
-    if (k > 0.0 && c.distance < met.gap + foreseen_way()) foresee(host, {node, facet}, stiffness);
+    if (k > 0.0 && c.distance < met.gap + foreseen_way()) foresee(host, {node, facet}, stiffness, result);
     return false;
   }
   if (met.gap - c.penetration < exhausted * met.gap) {
@@ -139,7 +141,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   const double p = c.penetration - pair.offset;
   const double gap = met.gap - pair.offset;
   if (p <= 0.0 || k <= 0.0) {
-    if (k > 0.0) foresee(host, pair, stiffness);
+    if (k > 0.0) foresee(host, pair, stiffness, result);
     pairs_.push_back(pair);
     return false;
   }
@@ -231,25 +233,36 @@ double BothSides::foreseen_way() const {
   return std::min(looked_ahead() * fastest_, foresight * narrowest_);
 }
 
-/// A pair that will touch soon already counts in the nodal sums of stiffness. The step is then short when
-/// it touches: leap-frog makes f (h - h')(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md, 3 and 7a).
-void BothSides::foresee(const HostState& host, const Pair& pair, std::span<double> stiffness) const {
+/// A pair that will touch within a few of the steps that its spring allows already counts in the nodal sums of stiffness. The step is then
+/// short when it touches: leap-frog makes f (h - h')(v' - v)/4 where the step changes from h to h' under a force f (docs/theory/contact.md,
+/// 3 and 7a). Longer steps come nearer by half of the way.
+void BothSides::foresee(const HostState& host, const Pair& pair, std::span<double> stiffness, StepResult& result) const {
   const double ahead = foreseen_way();
   if (ahead <= 0.0) return;
   const Met met = meet(held_, surface_, pair.node, pair.facet, pair_gap(pair.node, pair.facet) + ahead);
   const BothSidesContact& c = met.contact;
+  if (c.penetration <= pair.offset) return;
   const Opening m = opening(host, pair.node, pair.facet, c);
-  const double p = c.penetration - pair.offset - ahead + std::min(-looked_ahead() * m.rate, ahead);
-  if (p <= 0.0) return;
+  const double left = ahead + pair.offset - c.penetration;
+  if (left >= -looked_ahead() * m.rate) return;
   const double gap = met.gap - ahead - pair.offset;
   const double k0 = 0.5 * pair_stiffness(pair.node, pair.facet);
+  const double stop = stop_depth(k0, gap, 0.0, m);
+  const double ratio = gap / (gap - stop);
+  const double elastic = k0 * ratio * ratio;
+  const double time = left / -m.rate;
+  if (time * std::sqrt(elastic * m.inverse_mass) > 2.0 * settling) {
+    if (0.5 * time < result.kinematic_step) {
+      result.kinematic_step = 0.5 * time;
+      result.kinematic_node = held_.nodes()[at(pair.node)];
+    }
+    return;
+  }
   const auto& corner = surface_.surface().local()[at(pair.facet)];
   const auto host_of = [this](Index own) { return at(own_[at(own)]); };
   const std::size_t self = host_of(held_own_[at(pair.node)]);
-  const double stop = m.inverse_mass > 0.0 ? stop_depth(k0, gap, 0.0, m) : std::min(p, 0.5 * gap);
-  const double ratio = gap / (gap - stop);
-  const BothSidesForce law = both_sides_force(k0, gap, std::min(p, stop), mass_of(host, self), m.rate, options_.damping);
-  const double tangent = handed(host, k0 * ratio * ratio, law, friction_spring(host, pair.node, pair.facet), m);
+  const BothSidesForce law = both_sides_force(k0, gap, stop, mass_of(host, self), m.rate, options_.damping);
+  const double tangent = handed(host, elastic, law, friction_spring(host, pair.node, pair.facet), m);
   stiffness[self] += tangent;
   for (std::size_t i = 0; i < 4; ++i) {
     if (c.weight[i] > 0.0) stiffness[host_of(surface_own_[at(corner[i])])] += c.weight[i] * tangent;
