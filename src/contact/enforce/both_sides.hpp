@@ -35,6 +35,8 @@ class BothSides final : public InterfaceModel {
   /// (`kinematic`); the search lists hold them.
   static constexpr double foresight = 1.0, kinematic = 0.9;
 
+  /// What a pair did in the last cycle: p > 0 but for `apart`; its steps were once long for its stiffness; its last force was tried.
+  enum class State : std::int64_t { apart, acts, light, settled };
   /// A pair with p > 0 and what it carries to the next cycle.
   struct Pair {
     Index node = no_index, facet = no_index;
@@ -45,7 +47,10 @@ class BothSides final : public InterfaceModel {
     double rate = 0.0;          ///< normal speed, and
     double acceleration = 0.0;  ///< what the pair's own normal force gave it
     double force = 0.0;         ///< normal force, with the damper's
-    std::int64_t acts = 0;      ///< 1: p > 0 in the last cycle
+    double push = 0.0;          ///< force of the normal spring alone,
+    double held = 0.0;          ///< energy that it held,
+    double made = 0.0;          ///< and its account (account.hpp): what it has made since it began
+    State acts = State::apart;  ///< in the last cycle
   };
   struct Opening {
     Vec3 velocity;              ///< of the node relative to the facet's point under it
@@ -54,6 +59,11 @@ class BothSides final : public InterfaceModel {
   };
   struct Spring {
     double force, stored;
+  };
+  /// Half of the stiffness, gap and depth of a pair less its offset, with what the law says there.
+  struct PairLaw {
+    double k0, gap, p;
+    BothSidesForce force;
   };
   /// Geometry of a pair with its full gap.
   struct Met {
@@ -82,8 +92,8 @@ class BothSides final : public InterfaceModel {
   [[nodiscard]] bool acts(const HostState& host) const { return host.time >= options_.birth && host.time <= options_.death; }
   [[nodiscard]] Opening opening(const HostState& host, Index node, Index facet, const BothSidesContact& c) const;
   void gather_pressed();
-  [[nodiscard]] Spring spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Opening& m,
-                              const BothSidesForce& law) const;
+  [[nodiscard]] Spring spring(const HostState& host, const Pair& old, Pair& pair, const PairLaw& law, const Opening& m,
+                              StepResult& result) const;
   [[nodiscard]] double stepped(const HostState& host, const Pair& old, double rate) const;
   [[nodiscard]] double stop_depth(double k0, double gap, double p, const Opening& m) const;
   bool add_pair(const HostState& host, Index node, Index facet, const Pair& old, std::span<double> stiffness, StepResult& result,

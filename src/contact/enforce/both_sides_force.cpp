@@ -9,6 +9,7 @@
 #include "contact/enforce/both_sides_pair.hpp"
 #include "contact/enforce/coefficient.hpp"
 #include "contact/enforce/effective_mass.hpp"
+#include "contact/enforce/held_kernel.hpp"
 #include "contact/enforce/switching.hpp"
 
 namespace abut::contact {
@@ -51,7 +52,7 @@ BothSides::Opening BothSides::opening(const HostState& host, Index node, Index f
 
 /// What leap-frog made by a step that changed under the pair's last normal force (account.hpp).
 double BothSides::stepped(const HostState& host, const Pair& old, double rate) const {
-  if (old.acts == 0 || host.dt <= 0.0) return 0.0;
+  if (old.acts == State::apart || host.dt <= 0.0) return 0.0;
   return made_by_changing_step(old.force, step_before(host.dt, host.dt_bar_old), host.dt, old.rate, rate);
 }
 
@@ -62,17 +63,52 @@ double BothSides::stop_depth(double k0, double gap, double p, const Opening& m) 
   return std::max(p, std::min(std::sqrt(p * p + m.rate * m.rate / (k0 * m.inverse_mass)), 0.5 * gap));
 }
 
-/// Elastic force and stored energy of a cycle: the law's own, but for the cycles in which the pair starts or ends (switching.hpp).
-BothSides::Spring BothSides::spring(const HostState& host, const Pair& old, double k0, double gap, double p, const Opening& m,
-                                    const BothSidesForce& law) const {
-  const double moved = std::abs(m.rate) * host.dt;
-  if (!options_.switch_correction || host.dt <= 0.0 || p + moved > NormalLaw::bend * gap) return {law.elastic, law.energy};
-  const bool fresh = old.acts == 0;
-  // The damper of this cycle is one of the others.
-  const double before = !fresh && host.dt_bar_old > 0.0 ? (m.rate - old.rate) / host.dt_bar_old - old.acceleration : 0.0;
-  const double others = before - law.damping * m.rate * m.inverse_mass;
-  const Switched s = switched_spring({NormalLaw{gap, true}, k0, p, host.dt, m.rate, m.inverse_mass, others}, fresh);
-  return {s.force, s.stored};
+/// Elastic force and stored energy of a cycle: the law's own, but for the cycles in which the pair starts or ends (switching.hpp). A light
+/// pair ends with what is left in its account (account.hpp).
+BothSides::Spring BothSides::spring(const HostState& host, const Pair& old, Pair& pair, const PairLaw& l, const Opening& m,
+                                    StepResult& result) const {
+  const double h = host.dt, h_before = step_before(h, host.dt_bar_old);
+  const bool fresh = old.acts == State::apart;
+  double made = 0.0;  // by this spring, before this cycle's force
+  if (!fresh) made = old.made - old.held + 0.5 * h * old.push * m.rate + made_by_changing_step(old.push, h_before, h, old.rate, m.rate);
+  Spring s{l.force.elastic, l.force.energy};
+  pair.acts = State::acts;
+  if (options_.switch_correction && h > 0.0) {
+    // The damper of this cycle is one of the others.
+    const double before = !fresh && host.dt_bar_old > 0.0 ? (m.rate - old.rate) / host.dt_bar_old - old.acceleration : 0.0;
+    const double others = before - l.force.damping * m.rate * m.inverse_mass;
+    const double moved_in = -m.rate * h;
+    if (l.p + std::abs(moved_in) <= NormalLaw::bend * l.gap) {
+      const Switched switched = switched_spring({NormalLaw{l.gap, true}, l.k0, l.p, h, m.rate, m.inverse_mass, others}, fresh);
+      s = {switched.force, switched.stored};
+    }
+    const bool light = old.acts >= State::light || l.force.tangent * m.inverse_mass * h * h > light_pair;
+    if (light) pair.acts = State::light;
+    const double coming = foreseen_step(h_before, h);
+    const double longest = step_growth * h;
+    const double leaves = m.rate + 0.5 * (h + longest) * (m.inverse_mass * l.force.elastic + others);
+    if (light && pair.offset == 0.0 && leaves * longest > l.p && (!fresh || moved_in > l.p)) {
+      pair.acts = State::settled;
+      const double bound = 4.0 * l.k0 * coming * leaves;
+      const double force = std::clamp(last_force({m.rate, h, coming, m.inverse_mass, others, -made}), s.force - bound, s.force + bound);
+      const double rate = m.rate + 0.5 * (h + coming) * (m.inverse_mass * force + others);
+      // The step must be the one that the force was made for.
+      if (std::abs(force - s.force) > 1e-3 * l.force.elastic && coming < result.kinematic_step) {
+        result.kinematic_step = coming;
+        result.kinematic_node = held_.nodes()[at(pair.node)];
+      }
+      s = {force, 0.5 * force * rate * coming + made_by_changing_step(force, h, coming, m.rate, rate)};
+    } else if (old.acts == State::settled && m.rate > 0.0) {
+      // It has not left: what it would give back and was not taken before is not there.
+      const double left = std::clamp(-made / l.force.energy, 0.0, 1.0);
+      pair.acts = State::settled;
+      s = {left * l.force.elastic, left * l.force.energy};
+    }
+  }
+  pair.push = s.force;
+  pair.held = s.stored;
+  pair.made = fresh ? 0.0 : made + 0.5 * h * s.force * m.rate + s.stored;
+  return s;
 }
 
 /// Tangential stiffness of the incremental form.
@@ -163,11 +199,10 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
 
   const double mass = mass_of(host, self);
   const BothSidesForce law = both_sides_force(0.5 * k, gap, p, mass, vn, options_.damping);
-  const Spring elastic = spring(host, old, 0.5 * k, gap, p, m, law);
+  const Spring elastic = spring(host, old, pair, {0.5 * k, gap, p, law}, m, result);
   pair.damping = -law.damping * vn;
   const double pressing = elastic.force + pair.damping;
   sums.stepped += stepped(host, old, vn);
-  pair.acts = 1;
   pair.rate = vn;
   pair.force = pressing;
   pair.acceleration = pressing * m.inverse_mass;
@@ -210,7 +245,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
 /// What a pair that has opened or ended still did in the first half of the last step, and what its friction spring lets go of.
 void BothSides::end(const HostState& host, const Pair& old, Sums& sums) const {
   if (old.spring > 0.0) sums.friction_work += 0.5 * squared_norm(old.friction) / old.spring;
-  if (old.acts == 0) return;
+  if (old.acts == State::apart) return;
   const double gap = pair_gap(old.node, old.facet);
   const Met near = meet(held_, surface_, old.node, old.facet, gap);
   const BothSidesContact c =
@@ -223,8 +258,8 @@ void BothSides::end(const HostState& host, const Pair& old, Sums& sums) const {
   }
 }
 
-/// Time that is looked ahead, two of the longest steps so far: the coming step is not longer (kinematic_step). Before the first step: as long
-/// as any can be.
+/// Time that is looked ahead, two of the longest steps so far: the coming step is not longer (kinematic_step). Before the first step: as
+/// long as any can be.
 double BothSides::looked_ahead() const { return longest_step_ > 0.0 ? 2.0 * longest_step_ : foresight * narrowest_ / fastest_; }
 
 /// How far any pair can come in that time; no step goes further than a part of the least gap.
