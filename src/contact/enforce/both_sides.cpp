@@ -248,7 +248,10 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   }
   if (!started_) initial_elastic_ = sums.elastic;
   friction_work_ += sums.friction_work;
-  damping_work_ += sums.damping_work;
+  // A damper whose force turns its pair round gives back a part of what it takes next: DW does not fall.
+  const double damped = damping_owed_ + sums.damping_work;
+  damping_work_ += std::max(0.0, damped);
+  damping_owed_ = std::min(0.0, damped);
   stepped_work_ += sums.stepped;
   contact_work_ += discrete_work(host);
   started_ = true;
@@ -326,6 +329,7 @@ void BothSides::save(HistoryWriter& out) const {
   out.put(initial_elastic_);
   out.put(friction_work_);
   out.put(damping_work_);
+  out.put(damping_owed_);
   out.put(longest_step_);
   out.put(contact_work_);
   out.put(stepped_work_);
@@ -342,6 +346,7 @@ void BothSides::load(HistoryReader& in) {
   in.get(initial_elastic_);
   in.get(friction_work_);
   in.get(damping_work_);
+  in.get(damping_owed_);
   in.get(longest_step_);
   in.get(contact_work_);
   in.get(stepped_work_);

@@ -126,6 +126,7 @@ class BothSides final : public InterfaceModel {
   double fastest_ = 0.0;                   // bound of the speed of any node relative to any facet in this cycle
   bool started_ = false, stale_ = true;
   double initial_elastic_ = 0.0;
+  double damping_owed_ = 0.0;  // <= 0: what DW is too large by
   double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0, stepped_work_ = 0.0;
 };
 

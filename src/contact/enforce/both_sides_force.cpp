@@ -237,7 +237,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
   }
   result.largest_approach = std::max(result.largest_approach, -vn * host.dt / options_.gap);
   sums.elastic += elastic.stored;
-  sums.damping_work += std::max(0.0, -0.5 * host.dt * vn * (pair.damping + old.damping));
+  sums.damping_work -= 0.5 * host.dt * vn * (pair.damping + old.damping);
   pairs_.push_back(pair);
   return true;
 }
@@ -251,7 +251,7 @@ void BothSides::end(const HostState& host, const Pair& old, Sums& sums) const {
   const BothSidesContact c =
       near.contact.penetration > 0.0 ? near.contact : meet(held_, surface_, old.node, old.facet, 1.5 * near.contact.distance).contact;
   const Opening m = opening(host, old.node, old.facet, c);
-  sums.damping_work += std::max(0.0, -0.5 * host.dt * m.rate * old.damping);
+  sums.damping_work -= 0.5 * host.dt * m.rate * old.damping;
   sums.stepped += stepped(host, old, m.rate);
   if (options_.friction_form == BothSidesOptions::Friction::viscous) {
     sums.friction_work += std::max(0.0, 0.5 * host.dt * dot(m.velocity - m.rate * c.normal, old.friction));
