@@ -14,6 +14,9 @@ namespace {
 /// Placement of initial penetrations, a hair beyond what is there (numerics.md 7.7.1).
 constexpr double hair = 1.0 + 1e-8;
 
+/// First in the history: rises with every change of what is written here, as history_version does for all interfaces. 2: accounts of pairs.
+constexpr std::uint64_t layout = 0x3244495345444953ULL;
+
 /// Largest distance between a bilinear facet and its four triangles: a quarter of the height of its hourglass.
 double warp(const Side& surface) {
   double largest = 0.0;
@@ -320,6 +323,7 @@ void BothSides::add_nodal_contact(std::span<NodalContact> nodes) const {
 }
 
 void BothSides::save(HistoryWriter& out) const {
+  out.put(layout);
   out.put_all(pairs_);
   out.put_all(old_force_);
   out.put_all(old_x_);
@@ -337,6 +341,7 @@ void BothSides::save(HistoryWriter& out) const {
 
 void BothSides::load(HistoryReader& in) {
   stale_ = true;
+  if (in.next<std::uint64_t>() != layout) in.refuse("was written by a version whose two-sided interfaces remember something else");
   in.get_any(pairs_);
   in.get_all(old_force_);
   in.get_all(old_x_);
