@@ -74,6 +74,9 @@ std::vector<ElementRef> FaceOwners::of(const std::array<Index, 4>& nodes) const 
   return found == owners_.end() ? std::vector<ElementRef>{} : found->second;
 }
 
-void FaceOwners::add(const std::array<Index, 4>& nodes, ElementRef e) { owners_[face_key(nodes)].push_back(e); }
+void FaceOwners::add(const std::array<Index, 4>& nodes, ElementRef e) {
+  const FaceKey key = face_key(nodes);
+  if (key[2] != no_index) owners_[key].push_back(e);  // else a side that a degenerate solid has collapsed to a line or a point
+}
 
 }  // namespace abut::init

@@ -1,11 +1,13 @@
 // Cards of TYPE5 and TYPE7 as interfaces: stiffness, gaps, sensors, moved nodes, erosion (numerics.md 7.2, 7.4.7, 7.7.1).
 #include "init/contact_setup.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "init/contact_inspection.hpp"
+#include "model/build.hpp"
 
 namespace abut::init {
 namespace {
@@ -203,6 +205,64 @@ TEST(Settle, moves_nodes_and_says_so) {
   Diagnostics findings;
   settle_initial_penetrations(five.m, findings);
   for (std::size_t i = 6; i < 10; ++i) EXPECT_NEAR(five.m.node_x[i].z, 0.02, 1e-9);
+}
+
+/// A solid of `keyword` with E = 2 on nodes 1 to 6 (a half cube), below a plate that it touches as interfaces of all types.
+std::string block_under_a_plate(const std::string& keyword, const std::vector<int>& nodes) {
+  const auto card = [](const std::vector<std::string>& fields, int width) {
+    std::string s;
+    for (const std::string& f : fields) s += fmt::format("{:>{}}", f, width);
+    return s + "\n";
+  };
+  const auto node = [&](int id, const char* x, const char* y, const char* z) {
+    return card({std::to_string(id)}, 10).substr(0, 10) + card({x, y, z}, 20);
+  };
+  std::string deck = "/BEGIN\nblock\n      2022\n" + card({"kg", "m", "s"}, 20) + card({"kg", "m", "s"}, 20) + "/NODE\n";
+  deck += node(1, "0", "0", "0") + node(2, "1", "0", "0") + node(3, "1", "1", "0") + node(4, "0", "1", "0");
+  deck += node(5, "0", "0", "1") + node(6, "1", "0", "1") + node(7, "1", "1", "1");
+  deck += node(11, "-1", "-1", "1.05") + node(12, "2", "-1", "1.05") + node(13, "2", "2", "1.05") + node(14, "-1", "2", "1.05");
+  deck += "/MAT/ELAST/1\nm\n" + card({"1"}, 20) + card({"2", ".25"}, 20);
+  deck += "/PROP/SOLID/1\np\n" + card({"1"}, 10) + "/PROP/SHELL/2\np\n" + card({"1"}, 10) + "\n" + card({"0", "0", "", ".1"}, 10);
+  deck += "/PART/1\nblock\n" + card({"1", "1"}, 10) + "/PART/2\nplate\n" + card({"2", "1"}, 10);
+  deck += "/" + keyword + "/1\n         1";
+  for (const int n : nodes) deck += fmt::format("{:>10}", n);
+  deck += "\n/SHELL/2\n" + card({"2", "11", "14", "13", "12"}, 10) + "/SURF/PART/EXT/1\nblock\n" + card({"1"}, 10);
+  deck += "/SURF/PART/2\nplate\n" + card({"2"}, 10) + "/GRNOD/PART/1\nblock\n" + card({"1"}, 10);
+  deck += "/INTER/TYPE3/1\nt\n" + card({"1", "2"}, 10) + card({"0", "0", ".1"}, 20);
+  deck += "/INTER/TYPE5/2\nt\n" + card({"1", "2"}, 10) + card({"0", "0", ".1"}, 20);
+  deck += "/INTER/TYPE7/3\nt\n" + card({"1", "2"}, 10) + "\n\n" + card({"0", "0", ".1"}, 20);
+  return deck + "/END\n";
+}
+
+// Degenerate solids have sides that are no faces; their nodes are pressed down by the plate like those of any other.
+TEST(DegenerateSolids, touch_in_interfaces_of_every_type) {
+  const std::vector<std::pair<std::string, std::vector<int>>> solids{{"PENTA6", {1, 2, 3, 5, 6, 7}},
+                                                                     {"BRICK", {1, 2, 3, 5, 6, 7}},
+                                                                     {"BRICK", {1, 2, 3, 1, 5, 6, 7, 5}},
+                                                                     {"BRICK", {1, 2, 3, 4, 5, 5, 5, 5}},
+                                                                     {"BRICK", {1, 2, 3, 5}}};
+  for (const auto& [keyword, nodes] : solids) {
+    SCOPED_TRACE(keyword + fmt::format(" {}", fmt::join(nodes, " ")));
+    Diagnostics findings;
+    deck::DeckPair decks;
+    decks.starter = deck::read_starter_text(block_under_a_plate(keyword, nodes), "t_0000.rad", findings);
+    const model::Model m = model::build(decks, findings);
+    for (const Diagnostic& d : findings.all()) EXPECT_NE(d.severity, Severity::error) << to_string(d);
+    state::State s = state::State::zeros(m.node_count());
+    s.x = m.node_x;
+    s.mass.assign(s.x.size(), 1.0);
+    auto run = make_interfaces(m, Profile::standard(), {}, s);
+    ASSERT_EQ(run.size(), 3u);
+    for (RunInterface& r : run) {
+      std::vector<Vec3> f(s.x.size());
+      std::vector<double> k(s.x.size());
+      const contact::HostState host{s.x, s.v, s.mass, 0.0, 0.0, 0.0};
+      r.contact.search(host);
+      (void)r.contact.evaluate(host, f, k);
+      EXPECT_LT(f[4].z, 0.0);  // node 5, at the top of all of them
+      EXPECT_TRUE(std::isfinite(f[4].z));
+    }
+  }
 }
 
 // Nodes without a live element leave the interface, unless Idel is negative.

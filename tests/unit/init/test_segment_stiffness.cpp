@@ -47,6 +47,43 @@ TEST(SegmentStiffness, T16_T18_shell) {
     EXPECT_DOUBLE_EQ(CoatedBrick(size, 2 * size, 1.0).stiffness(model::ElementKind::shell4), 0.5);
 }
 
+/// A block of E = 6, nu = 0.25 (bulk modulus 4) on the corners of a unit cube, in the form the reader gives to degenerate solids.
+struct DegenerateBlock {
+  const char* name;
+  std::array<Index, 8> nodes;
+  std::size_t faces;
+  [[nodiscard]] CoatedBrick model() const {
+    CoatedBrick b(1, 1, 1);
+    b.m.bricks.nodes = {nodes};
+    b.m.shells = {};
+    return b;
+  }
+};
+const DegenerateBlock degenerate_blocks[] = {
+    {"PENTA6", {0, 1, 2, 0, 4, 5, 6, 4}, 5}, {"pyramid", {0, 1, 2, 3, 4, 4, 4, 4}, 5}, {"BRICK with 4 nodes", {0, 0, 1, 1, 4, 2, 2, 4}, 4}};
+
+// Sides that are collapsed to a line or a point are no faces; the faces that are left give the nodes their stiffness.
+TEST(NodeStiffness, CollapsedSidesOfDegenerateSolidsAreNoFaces) {
+  for (const DegenerateBlock& d : degenerate_blocks) {
+    SCOPED_TRACE(d.name);
+    const CoatedBrick block = d.model();
+    const FaceOwners owners(block.m);
+    EXPECT_EQ(owners.all().size(), d.faces);
+    for (const auto& [key, elements] : owners.all()) {
+      EXPECT_NE(key[2], no_index);
+      const std::array<Index, 4> face = face_of(block.m, elements.front(), key);
+      EXPECT_EQ(owners.of(face).size(), 1u);
+    }
+    const std::vector<Index> nodes(d.nodes.begin(), d.nodes.end());
+    EXPECT_TRUE(owners.of({nodes[4], nodes[4], nodes[4], nodes[4]}).empty());
+    double sum = 0.0;
+    for (const double k : node_stiffness(block.m, owners, std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7}, block.m.node_x)) sum += k;
+    EXPECT_GT(sum, 0.0);
+    // B A^2/V of two triangles, two squares and the slanting side of half a cube.
+    if (d.nodes[6] == 6) { EXPECT_NEAR(sum, 4.0 * (2 * 0.25 + 2 * 1.0 + 2.0) / 0.5, 1e-12); }
+  }
+}
+
 TEST(SegmentStiffness, NothingBehindIsNoStiffness) { EXPECT_EQ(CoatedBrick(1, 1, 1).stiffness(model::ElementKind::none), 0.0); }
 
 }  // namespace
