@@ -46,6 +46,16 @@ bool starts_with_word(std::string_view line, std::string_view upper_case) {
 
 bool is_include(std::string_view line) { return starts_with_word(line, "#INCLUDE") && line.size() > 8 && is_blank(line[8]); }
 
+/// "#includem.inc", " #include m.inc": not an include, but meant as one. A comment may begin with "#included ..." or "#includes".
+bool is_misspelt_include(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  if (!starts_with_word(text, "#INCLUDE") || is_include(line)) return false;
+  const std::string_view rest = text.substr(8);
+  if (text.size() == 8 || is_blank(rest.front())) return true;
+  const std::string_view name = rest.substr(0, rest.find_first_of(" \t"));
+  return name.size() == rest.size() && name.find('.') != std::string_view::npos && name.back() != '.';
+}
+
 bool is_end_of_data(std::string_view line) { return starts_with_word(line, "#ENDDATA") && trimmed(line).size() == 8; }
 
 bool is_header(std::string_view line) { return starts_with_word(line, "#RADIOSS") || starts_with_word(line, "# RADIOSS"); }
@@ -203,6 +213,10 @@ void StarterScanner::scan(int file, std::size_t start, const std::filesystem::pa
       const std::vector<std::string_view> words = split_words(line);
       if (!words.empty() && same_word(words.front(), "END")) break;
       open_block(line, file, lines.line());
+    } else if (is_misspelt_include(line)) {
+      diagnostics_.error("deck.include", line_place(deck_, file, lines.line()),
+                         fmt::format("'{}' does not include a file: write '#include FILE' from column 1 on, with a blank before the name",
+                                     printable(trimmed(line).substr(0, card_width))));
     } else if (is_comment(line)) {
       if (is_include(line)) include(line, file, lines.line(), folder);
       if (included && is_end_of_data(line)) break;

@@ -19,6 +19,9 @@ void read_bcs(Context& c, const deck::Block& block) {
     b.translation[k] = r.flag(4 + i, names[k]);
     b.rotation[k] = r.flag(8 + i, names[k + 3]);
   }
+  r.only_flags(
+      {1, 10}, {4, 5, 6, 8, 9, 10}, "Tra rot",
+      old_layout(c) ? "Tx, Ty, Tz go in columns 2 to 4, Rx, Ry, Rz in 6 to 8" : "Tx, Ty, Tz go in columns 4 to 6, Rx, Ry, Rz in 8 to 10");
   b.skew = read_skew(r, {11, 20}, "skew_ID");
   b.nodes = required_group(r, {21, 30}, "grnd_ID");
   c.model->boundary_conditions.push_back(std::move(b));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -58,6 +59,8 @@ class Filter {
     for (const Diagnostic& d : all_) {
       if (d.severity != Severity::error) continue;
       lines_.insert({d.place.file, d.place.line});
+      if (d.code == "deck.indented_keyword") indented_.emplace(std::pair{d.place.file, d.place.keyword}, d.place.line);
+      incomplete_ = incomplete_ || d.code == "deck.include" || d.code == "deck.indented_keyword";
       const std::string_view word = family(d.place.keyword);
       const bool set_is_empty = d.code == "model.empty_set";
       empty_set_ = empty_set_ || set_is_empty;
@@ -94,10 +97,13 @@ class Filter {
   [[nodiscard]] bool decide(const Diagnostic& d) {
     const bool error = d.severity == Severity::error;
     const Place& p = d.place;
+    if (const auto lost = indented_.find({p.file, p.keyword}); lost != indented_.end() && d.code != "deck.indented_keyword") {
+      if (p.line >= lost->second) return false;  // data of the keyword that was not seen
+    }
     if (p.line > 0 && p.first_column > 0 && error && !fields_.insert({p.file, p.line, (p.last_column - 1) / 10}).second) return false;
     if (!error && p.line > 0 && p.first_column > 0 && lines_.contains({p.file, p.line})) return false;
     if (const auto [word, what] = missing_id(d.message); !word.empty()) {
-      if (unreadable_.contains(word)) return false;
+      if (incomplete_ || unreadable_.contains(word)) return false;
       if (error ? !missing_.insert(what).second : errors_.contains(what)) return false;
     }
     if (among(d.code, derived) && (upstream_ || blocks_.contains(p.keyword))) return false;
@@ -112,6 +118,8 @@ class Filter {
 
   const std::vector<Diagnostic>& all_;
   bool upstream_ = false, empty_set_ = false;
+  bool incomplete_ = false;                                      ///< text is missing: what was not found may stand there
+  std::map<std::pair<std::string, std::string>, int> indented_;  ///< file and block of an indented keyword, and its line
   std::set<std::pair<std::string, int>> lines_;
   std::set<std::tuple<std::string, int, int>> fields_;  ///< with an error so far
   std::set<std::string> blocks_;

@@ -34,6 +34,8 @@ int read_idel(BlockReader& r, deck::Columns c) {
 void read_ibc(BlockReader& r, Interface& i) {
   constexpr std::array<std::string_view, 3> names{"IBC_x", "IBC_y", "IBC_z"};
   for (int k = 0; k < 3; ++k) i.ibc[static_cast<std::size_t>(k)] = r.flag(8 + k, names[static_cast<std::size_t>(k)]);
+  r.only_flags({1, 10}, {8, 9, 10}, "IBC",
+               old_layout(r.context()) ? "the directions x, y, z go in columns 6 to 8" : "the directions x, y, z go in columns 8 to 10");
 }
 
 void read_times(BlockReader& r, Interface& i) {

@@ -203,6 +203,26 @@ Rule rule_for(const deck::Block& b) {
   return found != rules.end() ? *found : Rule{"", "", refused, unknown_reason};
 }
 
+/// "  /BCS/1" -> "/BCS/1" where the word is a keyword of the table; empty: the line is data.
+std::string_view indented_keyword(std::string_view line) {
+  const std::string_view text = deck::trimmed(line);
+  if (text.empty() || text.front() != '/' || line.front() == '/') return {};
+  const std::string_view word = deck::trimmed(text.substr(1, text.find('/', 1) - 1));
+  const bool known = std::any_of(rules.begin(), rules.end(), [word](const Rule& r) { return deck::same_word(word, r.keyword); });
+  return known ? text : std::string_view{};
+}
+
+void check_indented(Context& c, const deck::Block& b) {
+  for (const deck::Card& card : b.cards) {
+    const std::string_view keyword = indented_keyword(card.text);
+    if (keyword.empty()) continue;
+    c.diagnostics->error("deck.indented_keyword", c.deck->place(b, card),
+                         fmt::format("'{}' does not begin in column 1 and would be taken for data; take out the blanks before it",
+                                     deck::printable(keyword.substr(0, deck::card_width))));
+    return;
+  }
+}
+
 /// "/INTER/TYPE11", "/BEAM": the words before the id.
 std::string spelling(const deck::Block& b) {
   std::string name = "/" + deck::to_upper(b.word(0));
@@ -236,6 +256,7 @@ void check_keywords(Context& c) {
   std::map<std::string, int> skipped;
   Place place_of_ams;
   for (const deck::Block& b : c.deck->blocks) {
+    check_indented(c, b);
     if (b.is(0, "AMS")) place_of_ams = c.deck->place(b);
     const Rule rule = rule_for(b);
     if (rule.treatment == harmless) ++skipped[spelling(b)];

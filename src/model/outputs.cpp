@@ -36,7 +36,7 @@ void read_section(Context& c, const deck::Block& block) {
   }
   if (r.integer({51, 60}, "Frame_ID") != 0) {
     r.warning("model.left_out", {51, 60}, "Frame_ID", "frames are not supported; the section is left out (give three nodes)");
-    return;
+    return r.leave_rest();
   }
   r.next_card();  // file name
   r.next_card();
@@ -167,10 +167,10 @@ class HistoryReader {
 
   void read_lines(BlockReader& r, ThKind kind, const std::set<std::string>& variables) {
     while (r.next_card()) {
-      if (r.place({1, 10}, "object").file != r.place().file) return;  // text of an included file below the last object (H.2)
+      if (r.place({1, 10}, "object").file != r.place().file) return r.leave_rest();  // text of an included file below the last object (H.2)
       if (!deck::parse_integer(r.text({1, 10}))) {
         r.warning("model.surplus_text", {1, 10}, "object", "this line is not an object; it and what follows is left out");
-        return;
+        return r.leave_rest();
       }
       const Id id = r.integer({1, 10}, "object");
       if (id == 0) continue;

@@ -56,7 +56,8 @@ double Context::factor(Dimension d, Id unit_id) const {
          power(value_units->time / work.time, d.time);
 }
 
-BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title) : context_(&context), block_(&block) {
+BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title)
+    : context_(&context), block_(&block), errors_before_(context.diagnostics->error_count()) {
   const bool old = old_layout(context);
   const auto error = [this](std::string_view code, std::string message) {
     context_->diagnostics->error(std::string(code), place(), std::move(message));
@@ -93,7 +94,26 @@ BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word
   }
 }
 
+BlockReader::~BlockReader() {
+  if (context_->field_log != nullptr || context_->diagnostics->error_count() > errors_before_) return;
+  const deck::Card* first = nullptr;
+  int lines = 0;
+  for (; more(); ++next_) {
+    const deck::Card& card = block_->cards[next_];
+    if (card.file != block_->file || deck::is_blank_card(card.text)) continue;  // text of an included file may follow a block (H.2, item 3)
+    if (first == nullptr) first = &card;
+    ++lines;
+  }
+  if (first == nullptr) return;
+  context_->diagnostics->warning(
+      "deck.surplus_lines", context_->deck->place(*block_, *first),
+      fmt::format("{} not read: the block has all its cards before; a further item needs a keyword line of its own",
+                  lines == 1 ? "this line is" : fmt::format("this line and {} more are", lines - 1)));
+}
+
 std::string BlockReader::keyword() const { return block_->name(); }
+
+void BlockReader::leave_rest() { next_ = block_->cards.size(); }
 
 bool BlockReader::more() const { return next_ < block_->cards.size(); }
 
@@ -150,6 +170,16 @@ bool BlockReader::flag(int column, std::string_view field) {
   return true;
 }
 
+void BlockReader::only_flags(deck::Columns c, std::initializer_list<int> flags, std::string_view field, std::string_view what_is_right) {
+  for (int column = c.first; column <= c.last; ++column) {
+    if (std::find(flags.begin(), flags.end(), column) != flags.end()) continue;
+    const std::string_view s = text({column, column});
+    if (s.empty()) continue;
+    error("deck.bad_flag", {column, column}, field, fmt::format("{} stands between the flags: {}", quoted(s), what_is_right));
+    return;
+  }
+}
+
 std::vector<Id> BlockReader::id_list(std::string_view field) {
   std::vector<Id> ids;
   bool told = false;
@@ -161,7 +191,7 @@ std::vector<Id> BlockReader::id_list(std::string_view field) {
       const std::optional<Id> id = deck::parse_integer(s);
       if (!id && foreign) {  // text of an included file after the list (H.2, item 3)
         warning("deck.surplus_lines", c, field, fmt::format("the list ends here: {} is not an id", quoted(s)));
-        next_ = block_->cards.size();
+        leave_rest();
         return ids;
       }
       if (!id) error("deck.bad_integer", c, field, not_a("an integer", s));

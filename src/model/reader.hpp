@@ -1,6 +1,7 @@
 // What the readers of single keywords share: units, cards of one block with typed fields, tables of ids.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -78,6 +79,10 @@ class BlockReader {
   /// @param has_title the keyword is followed by a title card (from version 51 on)
   /// @param id_word   which word of the keyword line holds the id (e.g. 2 for /INTER/TYPE3/1); -1: the keyword has no id
   BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title);
+  /// Warns of lines that no card was read from, unless the block has an error.
+  ~BlockReader();
+  BlockReader(const BlockReader&) = delete;
+  BlockReader& operator=(const BlockReader&) = delete;
 
   [[nodiscard]] Id id() const { return id_; }
   [[nodiscard]] Id unit_id() const { return unit_id_; }
@@ -87,12 +92,15 @@ class BlockReader {
   /// Moves to the next data card. false: the card is missing; its fields then read as blank (A.5).
   bool next_card();
   [[nodiscard]] bool more() const;  ///< another data card follows
+  void leave_rest();                ///< the cards that follow are not read, and this is said elsewhere
 
   [[nodiscard]] double real(deck::Columns c, std::string_view field, Dimension d = dim::none);
   [[nodiscard]] Id integer(deck::Columns c, std::string_view field);
   [[nodiscard]] std::string_view text(deck::Columns c) const;
   [[nodiscard]] std::string_view text(deck::Columns c, std::string_view field);
   [[nodiscard]] bool flag(int column, std::string_view field);  ///< one-character 0/1/blank
+  /// Reports text in the other columns of a field of flags, which stand in fixed columns.
+  void only_flags(deck::Columns c, std::initializer_list<int> flags, std::string_view field, std::string_view what_is_right);
   [[nodiscard]] bool blank(deck::Columns c) const { return text(c).empty(); }
 
   /// Ids of a list, 10 per line, to the end of the block (blank fields skipped). Stops with a warning at a line that does not parse,
@@ -118,6 +126,7 @@ class BlockReader {
   Id unit_id_ = 0;
   std::string title_;
   bool titled_ = false;  ///< the first card is the title
+  int errors_before_ = 0;
   std::size_t next_ = 0;
   /// "'1 2' is not an integer", with a word on tabs where the line has some.
   [[nodiscard]] std::string not_a(std::string_view what, std::string_view text) const;

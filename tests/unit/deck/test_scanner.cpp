@@ -149,6 +149,17 @@ TEST(Scanner, IncludeNeedsAFile) {
   EXPECT_EQ(messages(d), std::vector<std::string>{"t:2: #include needs a deck that is read from a file, not from memory"});
 }
 
+TEST(Scanner, IncludeThatIsNoneIsAnError) {
+  for (const char* line : {" #include m.inc", "#includem.inc", "#include", "\t#INCLUDE sub/NODES"}) {
+    Diagnostics d;
+    (void)read_starter_text("/NODE\n" + std::string(line) + "\n/END\n", "t", d);
+    ASSERT_EQ(messages(d).size(), 1u) << line;
+    EXPECT_NE(messages(d)[0].find("does not include a file: write '#include FILE' from column 1 on"), std::string::npos) << messages(d)[0];
+  }
+  for (const char* line : {"#included m.inc", "#includes:", "#include_me", "#includes everything."})
+    scan("/NODE\n" + std::string(line) + "\n/END\n");
+}
+
 TEST(Include, Surprise2NestedPastedTextWithoutExtension) {
   const Folder folder;
   folder.write("sub/NODESD0B", "         1\n#include inner\n         3\n");
