@@ -156,6 +156,7 @@ void read_engine(Context& c, const deck::Deck& engine, int run);  ///< Engine de
 void check_keywords(Context& c);  ///< keywords nobody took: refused when they can change physics, else listed as skipped
 [[nodiscard]] bool is_refused(const deck::Block& block);  ///< check_keywords refuses this block: readers pass over it
 void check_plausibility(Context& c);                      ///< what a deck may say but rarely means (units, walls and rigid bodies)
+void check_motions(Context& c);                           ///< motions and conditions that contradict each other or a rigid body
 void validate(Context& c);  ///< what can only be judged with everything read (shared nodes, zero areas, masses ...)
 
 }  // namespace abut::model

@@ -1,5 +1,5 @@
 // What can only be judged with everything read: nodes that two interfaces' sides share, empty sets, surfaces without area or stiffness,
-// nodes without mass, rigid bodies that overlap, motions that contradict each other.
+// nodes without mass, rigid bodies that overlap.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,23 +8,11 @@
 
 #include "model/condition_fields.hpp"
 #include "model/measure.hpp"
+#include "model/wording.hpp"
 
 namespace abut::model {
 
 namespace {
-
-constexpr std::size_t listed = 20;  ///< how many ids a message names
-
-/// "1, 2, 3 (and 5 more)"
-template <class T>
-std::string list(const std::vector<T>& ids) {
-  const std::size_t n = std::min(ids.size(), listed);
-  std::string s = fmt::format("{}", fmt::join(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(n), ", "));
-  if (ids.size() > n) s += fmt::format(" (and {} more)", ids.size() - n);
-  return s;
-}
-
-std::string plural(std::size_t n, std::string_view one, std::string_view many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
 
 class Validator {
  public:
@@ -40,8 +28,8 @@ class Validator {
     }
     interfaces(masses_are_known);
     rigid_bodies(masses_are_known);
-    motions();
     if (masses_are_known) loads_on_massless_nodes();
+    check_motions(c_);
     unused_functions();
   }
 
@@ -237,7 +225,7 @@ class Validator {
                          surface(main).id, list(ids_of(shared))));
   }
 
-  // ---- rigid bodies, motions, loads ---------------------------------------------------------------------------------
+  // ---- rigid bodies, loads ------------------------------------------------------------------------------------------
 
   /// Nodes whose motion comes from a rigid body.
   std::set<Index> held_nodes() const {
@@ -273,43 +261,6 @@ class Validator {
         d_.warning(
             "model.no_mass", place("RBODY", b.id),
             "the rigid body has no mass and cannot move freely; give one in the field Mass, or hold nodes of elements that have mass");
-      }
-    }
-  }
-
-  static std::string_view name_of(ImposedMotion::Kind kind) {
-    return kind == ImposedMotion::Kind::velocity ? "IMPVEL" : kind == ImposedMotion::Kind::displacement ? "IMPDISP" : "IMPACC";
-  }
-
-  void motions() {
-    std::set<Index> secondary;
-    for (const RigidBody& b : m_.rigid_bodies) {
-      if (b.sensor == no_index && b.active) secondary.insert(b.nodes.begin(), b.nodes.end());
-    }
-    std::map<std::tuple<Index, int, Index>, const ImposedMotion*> imposed;  // node, direction, skew
-    for (const ImposedMotion& motion : m_.imposed_motions) {
-      std::vector<Index> held, twice;
-      const ImposedMotion* other = nullptr;
-      for (const Index n : motion.nodes) {
-        if (secondary.contains(n)) held.push_back(n);
-        const auto [found, inserted] = imposed.emplace(std::tuple{n, motion.direction, motion.skew}, &motion);
-        if (inserted) continue;
-        const ImposedMotion& o = *found->second;
-        if (o.t_start >= motion.t_stop || motion.t_start >= o.t_stop) continue;
-        other = &o;
-        twice.push_back(n);
-      }
-      const std::string_view name = name_of(motion.kind);
-      if (!held.empty()) {
-        d_.warning("model.motion_of_rigid_body", place(name, motion.id),
-                   fmt::format("{} of a rigid body and {} it: {}; impose the motion on the main node",
-                               held.size() == 1 ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", held.size()),
-                               held.size() == 1 ? "follows" : "follow", list(ids_of(held))));
-      }
-      if (other != nullptr) {
-        d_.warning("model.motion_twice", place(name, motion.id),
-                   fmt::format("/{}/{} imposes the same direction at the same time on {}: {}; the last one counts, keep one of them",
-                               name_of(other->kind), other->id, plural(twice.size(), "node", "nodes"), list(ids_of(twice))));
       }
     }
   }

@@ -95,9 +95,9 @@ turned
 /GRNOD/PART/1
 lower nodes
          1
-/GRNOD/PART/2
-upper nodes
-         2
+/GRNOD/NODE/2
+upper nodes and main node
+         9        10        11        12        13        14        15        16        30
 /GRNOD/NODE/3
 top
         13        14        15        16

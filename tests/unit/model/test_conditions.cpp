@@ -56,7 +56,7 @@ TEST(Conditions, InitialVelocityInASkewIsTurnedToGlobalAxes) {
   const InitialVelocity& v = b.model.initial_velocities.at(0);
   EXPECT_EQ(v.value, (Vec3{3, 1, 2}));
   EXPECT_FALSE(v.rotational);
-  EXPECT_EQ(v.nodes.size(), 8u);
+  EXPECT_EQ(v.nodes.size(), 9u);
 }
 
 TEST(Conditions, InitialVelocitiesKeepTheOrderOfTheDeck) {
@@ -201,7 +201,7 @@ TEST(Conditions, WallTakesNodesWithinItsSearchDistanceOnItsPositiveSide) {
 TEST(Conditions, WallGroupsAddAndRemoveNodes) {
   const Built b = build_changed("/RWALL/PLANE/1", 2, integers({"0", "0", "2", "3"}));
   ASSERT_FALSE(b.diagnostics.has_errors());
-  EXPECT_EQ(ids(b.model, b.model.rigid_walls.at(0).nodes), (std::vector<Id>{1, 2, 3, 4, 9, 10, 11, 12}));
+  EXPECT_EQ(ids(b.model, b.model.rigid_walls.at(0).nodes), (std::vector<Id>{1, 2, 3, 4, 9, 10, 11, 12, 30}));
 }
 
 TEST(Conditions, MovingWallStartsAtItsNode) {

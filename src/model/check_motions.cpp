@@ -1,0 +1,192 @@
+// Motions that contradict each other, a boundary condition or a rigid body; conditions on nodes that follow a rigid body.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "model/condition_fields.hpp"
+#include "model/wording.hpp"
+
+namespace abut::model {
+
+namespace {
+
+class MotionChecks {
+ public:
+  explicit MotionChecks(Context& c)
+      : c_(c), m_(*c.model), d_(*c.diagnostics), body_(static_cast<std::size_t>(m_.node_count()), nullptr) {
+    for (const RigidBody& b : m_.rigid_bodies) {
+      if (b.sensor != no_index || !b.active || b.main == no_index) continue;
+      for (const Index n : b.nodes) body_[static_cast<std::size_t>(n)] = &b;
+    }
+    for (const BoundaryCondition& b : m_.boundary_conditions) {
+      for (const Index n : b.nodes) {
+        std::array<bool, 6>& flags = held_[n][b.skew];
+        for (std::size_t k = 0; k < 3; ++k) {
+          flags[k] = flags[k] || b.translation[k];
+          flags[k + 3] = flags[k + 3] || b.rotation[k];
+        }
+      }
+    }
+  }
+
+  void run() {
+    imposed_motions();
+    if (d_.has_errors()) return;  // a group or body may be other than it is meant
+    initial_velocities();
+    boundary_conditions();
+    gravities();
+  }
+
+ private:
+  /// Held directions, X to ZZ, by the skew that they are in.
+  using Held = std::map<Index, std::array<bool, 6>>;
+
+  std::vector<Id> ids_of(const std::vector<Index>& nodes) const {
+    std::vector<Id> ids;
+    for (const Index n : nodes) ids.push_back(m_.node_id[static_cast<std::size_t>(n)]);
+    return ids;
+  }
+
+  const RigidBody* body_of(Index node) const { return body_[static_cast<std::size_t>(node)]; }
+
+  static std::string_view name_of(ImposedMotion::Kind kind) {
+    return kind == ImposedMotion::Kind::velocity ? "IMPVEL" : kind == ImposedMotion::Kind::displacement ? "IMPDISP" : "IMPACC";
+  }
+
+  void imposed_motions() {
+    std::map<std::tuple<Index, int, Index>, const ImposedMotion*> imposed;  // node, direction, skew
+    for (const ImposedMotion& motion : m_.imposed_motions) {
+      std::vector<Index> following, held, twice;
+      const ImposedMotion* other = nullptr;
+      for (const Index n : motion.nodes) {
+        if (body_of(n) != nullptr) following.push_back(n);
+        if (body_of(n) == nullptr && holds(n, motion)) held.push_back(n);
+        const auto [found, inserted] = imposed.emplace(std::tuple{n, motion.direction, motion.skew}, &motion);
+        if (inserted) continue;
+        const ImposedMotion& o = *found->second;
+        if (o.t_start >= motion.t_stop || motion.t_start >= o.t_stop) continue;
+        other = &o;
+        twice.push_back(n);
+      }
+      const Place place = place_of(c_, name_of(motion.kind), motion.id);
+      if (!following.empty()) {
+        const bool one = following.size() == 1;
+        d_.warning(
+            "model.motion_of_rigid_body", place,
+            fmt::format("{} of a rigid body and {} it: {}; impose the motion on the main node",
+                        one ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", following.size()),
+                        one ? "follows" : "follow", list(ids_of(following))));
+      }
+      if (!held.empty()) {
+        d_.warning("model.motion_of_held_node", place,
+                   fmt::format("a /BCS holds {} in this direction and the motion does nothing there: {}; take the direction out of the /BCS",
+                               plural(held.size(), "node", "nodes"), list(ids_of(held))));
+      }
+      if (other != nullptr) {
+        d_.warning("model.motion_twice", place,
+                   fmt::format("/{}/{} imposes the same direction at the same time on {}: {}; the last one counts, keep one of them",
+                               name_of(other->kind), other->id, plural(twice.size(), "node", "nodes"), list(ids_of(twice))));
+      }
+    }
+  }
+
+  /// A boundary condition in the same axes holds the direction, or one in any axes all three.
+  bool holds(Index node, const ImposedMotion& motion) const {
+    const auto found = held_.find(node);
+    if (found == held_.end()) return false;
+    const auto first = static_cast<std::size_t>(motion.direction / 3 * 3);
+    return std::any_of(found->second.begin(), found->second.end(), [&](const auto& held) {
+      const auto& [skew, flags] = held;
+      if (flags[first] && flags[first + 1] && flags[first + 2]) return true;
+      return skew == motion.skew && flags[static_cast<std::size_t>(motion.direction)];
+    });
+  }
+
+  void initial_velocities() {
+    std::map<Id, std::vector<Index>> nodes_of;  // /INIVEL/NODE is one item per node
+    std::set<Index> moving;
+    const auto collect = [&](const auto& items) {
+      for (const auto& v : items) {
+        nodes_of[v.id].insert(nodes_of[v.id].end(), v.nodes.begin(), v.nodes.end());
+        moving.insert(v.nodes.begin(), v.nodes.end());
+      }
+    };
+    collect(m_.initial_velocities);
+    collect(m_.initial_rotations);
+    for (const auto& [id, nodes] : nodes_of) {
+      following("INIVEL", id, nodes, [&](Index main) { return moving.contains(main); }, "give the velocity to {}");
+    }
+  }
+
+  void boundary_conditions() {
+    for (const BoundaryCondition& b : m_.boundary_conditions) {
+      const auto held_too = [&](Index main) {
+        std::array<bool, 6> held{};
+        if (const auto found = held_.find(main); found != held_.end()) {
+          if (const auto same_axes = found->second.find(b.skew); same_axes != found->second.end()) held = same_axes->second;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+          if ((b.translation[k] && !held[k]) || (b.rotation[k] && !held[k + 3])) return false;
+        }
+        return true;
+      };
+      following("BCS", b.id, b.nodes, held_too, "hold {}");
+    }
+  }
+
+  void gravities() {
+    for (const Gravity& g : m_.gravities) {
+      const auto acts = [&](Index main) {
+        return std::any_of(m_.gravities.begin(), m_.gravities.end(), [&](const Gravity& other) {
+          return other.direction == g.direction && other.skew == g.skew && std::binary_search(other.nodes.begin(), other.nodes.end(), main);
+        });
+      };
+      following("GRAV", g.id, g.nodes, acts, "take {} into the group, where the weight of the whole body acts");
+    }
+  }
+
+  /// Warns of nodes that follow a rigid body whose main node has no such condition: there it does nothing.
+  template <class MainHasIt>
+  void following(std::string_view word, Id id, const std::vector<Index>& nodes, const MainHasIt& main_has_it,
+                 fmt::format_string<std::string> advice) {
+    std::map<const RigidBody*, bool> lacking;
+    std::vector<Index> lost;
+    for (const Index n : nodes) {
+      const RigidBody* body = body_of(n);
+      if (body == nullptr) continue;
+      const auto [found, inserted] = lacking.emplace(body, false);
+      if (inserted) found->second = !main_has_it(body->main);
+      if (found->second) lost.push_back(n);
+    }
+    if (lost.empty()) return;
+    std::sort(lost.begin(), lost.end());
+    lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
+    std::vector<Id> bodies, mains;
+    for (const RigidBody& b : m_.rigid_bodies) {
+      if (const auto found = lacking.find(&b); found == lacking.end() || !found->second) continue;
+      bodies.push_back(b.id);
+      mains.push_back(m_.node_id[static_cast<std::size_t>(b.main)]);
+    }
+    const bool one = bodies.size() == 1;
+    d_.warning("model.condition_of_rigid_body", place_of(c_, word, id),
+               fmt::format("{} of rigid {} {} and {} {}, so this does nothing there: {}; {}",
+                           lost.size() == 1 ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", lost.size()),
+                           one ? "body" : "bodies", list(bodies), lost.size() == 1 ? "follows" : "follow", one ? "it" : "them",
+                           list(ids_of(lost)), fmt::format(advice, (one ? "its main node " : "their main nodes ") + list(mains))));
+  }
+
+  Context& c_;
+  const Model& m_;
+  Diagnostics& d_;
+  std::vector<const RigidBody*> body_;  ///< of secondary nodes that follow one from the start
+  std::map<Index, Held> held_;
+};
+
+}  // namespace
+
+void check_motions(Context& c) { MotionChecks(c).run(); }
+
+}  // namespace abut::model
