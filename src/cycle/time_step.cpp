@@ -43,8 +43,10 @@ TimeStep::TimeStep(const model::Model& model, const Profile& profile, bool has_t
     if (c.contact_scale_given) nodal_scale_ = std::min(nodal_scale_, c.contact_scale);
   }
   if (c.mass_scaling) {
-    scaled_.assign(static_cast<std::size_t>(model.node_count()), c.mass_scaling_nodes.empty() ? 1 : 0);
-    for (const Index n : c.mass_scaling_nodes) scaled_[static_cast<std::size_t>(n)] = 1;
+    scaled_.assign(static_cast<std::size_t>(model.node_count()), c.mass_scaling_nodes ? 0 : 1);
+    if (c.mass_scaling_nodes) {
+      for (const Index n : *c.mass_scaling_nodes) scaled_[static_cast<std::size_t>(n)] = 1;
+    }
   }
 }
 

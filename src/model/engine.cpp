@@ -6,8 +6,10 @@
 #include <map>
 #include <set>
 
+#include "deck/text.hpp"
 #include "model/animation_names.hpp"
 #include "model/condition_fields.hpp"
+#include "model/free_format.hpp"
 
 namespace abut::model {
 
@@ -23,75 +25,6 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
   return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return text.starts_with(w); });
 }
 
-/// Reads the numbers of one block: blanks and commas separate them, missing ones at the end are 0.
-class FreeFormat {
- public:
-  FreeFormat(const deck::Deck& deck, const deck::Block& block, Diagnostics& diagnostics)
-      : deck_(deck), block_(block), diagnostics_(diagnostics) {
-    for (std::size_t i = 0; i < block.cards.size(); ++i) {
-      std::vector<std::string_view> numbers = split(block.cards[i].text);
-      if (!numbers.empty()) lines_.emplace_back(i, std::move(numbers));
-    }
-  }
-
-  [[nodiscard]] bool empty() const { return lines_.empty(); }
-
-  /// k-th number of the first line that is not blank.
-  double real(std::size_t k, std::string_view field) {
-    if (lines_.empty() || k >= lines_.front().second.size()) return 0.0;
-    const std::string_view text = lines_.front().second[k];
-    const auto value = deck::parse_real(text);
-    if (!value) bad(0, field, fmt::format("'{}' is not a real number", text));
-    return value.value_or(0.0);
-  }
-
-  /// A value that cannot be negative.
-  double positive(std::size_t k, std::string_view field) {
-    const double value = real(k, field);
-    if (value < 0.0) bad(0, field, fmt::format("{} is negative; write 0 or more", value));
-    return std::max(value, 0.0);
-  }
-
-  /// All integers from line `first` on.
-  std::vector<Id> integers(std::size_t first, std::string_view field) {
-    std::vector<Id> ids;
-    for (std::size_t i = first; i < lines_.size(); ++i) {
-      for (const std::string_view text : lines_[i].second) {
-        const auto value = deck::parse_integer(text);
-        if (!value) {
-          bad(i, field, fmt::format("'{}' is not an integer", text));
-        } else if (*value != 0) {
-          ids.push_back(*value);
-        }
-      }
-    }
-    return ids;
-  }
-
-  /// @param line counts the lines that are not blank
-  void bad(std::size_t line, std::string_view field, std::string message, Severity severity = Severity::error) {
-    Place place = line < lines_.size() ? deck_.place(block_, block_.cards[lines_[line].first]) : deck_.place(block_);
-    place.field = std::string(field);
-    diagnostics_.add({severity, "engine.bad_value", std::move(place), std::move(message)});
-  }
-
- private:
-  static std::vector<std::string_view> split(std::string_view text) {
-    std::vector<std::string_view> numbers;
-    constexpr std::string_view separators = " \t,\r";
-    for (std::size_t begin = text.find_first_not_of(separators); begin != std::string_view::npos;) {
-      const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-      numbers.push_back(text.substr(begin, end - begin));
-      begin = text.find_first_not_of(separators, end);
-    }
-    return numbers;
-  }
-
-  const deck::Deck& deck_;
-  const deck::Block& block_;
-  Diagnostics& diagnostics_;
-  std::vector<std::pair<std::size_t, std::vector<std::string_view>>> lines_;
-};
 
 class EngineReader {
  public:
@@ -103,7 +36,11 @@ class EngineReader {
       if (is_keyword(block, "DT") && block.word(1).empty()) read_general_step(block);
     }
     for (const deck::Block& block : engine_.blocks) {
-      if (read_block(block)) continue;
+      check_indented(block);
+      if (read_block(block)) {
+        check_repeated(block);
+        continue;
+      }
       if (refused_.empty()) first_refused_ = engine_.place(block);
       refused_.push_back(named(block));
     }
@@ -131,6 +68,33 @@ class EngineReader {
   }
 
  private:
+  void check_indented(const deck::Block& block) {
+    if (is_keyword(block, "TITLE")) return;
+    for (const deck::Card& card : block.cards) {
+      const std::string_view text = deck::trimmed(card.text);
+      if (!text.starts_with('/')) continue;
+      c_.diagnostics->error(
+          "deck.indented_keyword", engine_.place(block, card),
+          fmt::format("'{}' does not begin in column 1 and would be taken for data; take out the blanks before it", deck::printable(text)));
+      return;
+    }
+  }
+
+  /// Settings of which the last counts: two of them are rarely meant.
+  void check_repeated(const deck::Block& block) {
+    static const std::set<std::string> settings{"RUN", "TFILE", "PRINT", "RFILE", "STOP", "DT", "DTIX", "ANIM"};
+    std::string setting = upper(block.word(0));
+    if (!settings.contains(setting)) return;
+    const bool has_kinds = setting == "DT" || setting == "ANIM" || (setting == "TFILE" && !is_id(block.word(1)));
+    if (has_kinds && !block.word(1).empty()) setting += "/" + upper(block.word(1));
+    if (setting.starts_with("ANIM") && setting != "ANIM/DT") return;
+    const auto [first, inserted] = line_of_.emplace(setting, block.line);
+    if (inserted) return;
+    c_.diagnostics->warning(
+        "engine.repeated", engine_.place(block),
+        fmt::format("a second /{} (the first is in line {}): the last one counts, keep one of them", setting, first->second));
+  }
+
   static std::string joined(const deck::Block& block) { return fmt::format("{}", fmt::join(block.words, "/")); }
 
   /// "/KEREL (line 5)"
@@ -138,11 +102,23 @@ class EngineReader {
 
   FreeFormat data(const deck::Block& block) { return {engine_, block, *c_.diagnostics}; }
 
+  /// A keyword without lines of its own: those below it are warned of.
+  bool no_data(const deck::Block& block) {
+    (void)data(block);
+    return true;
+  }
+
   static double scale_or_default(double scale) { return scale == 0.0 ? 0.9 : scale; }
 
   double scale(FreeFormat& d) {
     const double s = scale_or_default(d.positive(0, "Tsca"));
-    if (s > 1.0) d.bad(0, "Tsca", fmt::format("{} is above 1; the step may be beyond the stable one, 0.9 is usual", s), Severity::warning);
+    constexpr double largest = 1.5;
+    if (s > largest) {
+      d.bad(0, "Tsca",
+            fmt::format("{} is far above 1, and the step would be beyond the stable one; write 0.9 or another value below 1", s));
+    } else if (s > 1.0) {
+      d.bad(0, "Tsca", fmt::format("{} is above 1; the step may be beyond the stable one, 0.9 is usual", s), Severity::warning);
+    }
     return s;
   }
 
@@ -171,7 +147,8 @@ class EngineReader {
     if (word == "DTIX") return read_step_limits(block);
     if (word == "ANIM") return read_animation(block);
     if (word == "RBODY") return read_rigid_bodies(block);
-    if (word == "TITLE" || word == "VERS" || word == "MON" || word == "PARITH" || word == "END") return true;
+    if (word == "TITLE" || word == "END") return true;
+    if (word == "VERS" || word == "MON" || word == "PARITH") return no_data(block);
     if (is_output_file(word) ||
         starts_with_any(word, {"PROC", "DEBUG", "CHECKPOINT", "THREAD", "NOISE", "OUTP", "STATE", "DYNAIN", "ABF", "H3D", "IOFLAG"}) ||
         (word == "TH" && (same_word(block.word(1), "VERS") || same_word(block.word(1), "TITLE")))) {
@@ -231,7 +208,7 @@ class EngineReader {
     } else if (*every != 0) {
       k_.print_every = static_cast<int>(std::min<Id>(std::abs(*every), 1000000000));
     }
-    return true;
+    return no_data(block);
   }
 
   bool read_restart(const deck::Block& block) {
@@ -294,28 +271,46 @@ class EngineReader {
     FreeFormat d = data(block);
     k_.nodal_step = true;
     k_.nodal_scale = scale(d);
+    const double minimum = d.positive(1, "Tmin");
     if (!constant) return true;
-    k_.nodal_minimum = d.positive(1, "Tmin");
-    if (k_.nodal_minimum == 0.0) {
+    k_.nodal_minimum = minimum;
+    if (minimum == 0.0) {
       d.bad(0, "Tmin", "mass scaling needs the step that it shall keep: write a scale and a minimum step, e.g. 0.9 1e-6");
     }
-    k_.mass_scaling = true;
-    if (block.word(3) == "1") {
-      const std::vector<Id> groups = d.integers(1, "grnd_ID");
-      if (groups.empty()) {
-        d.bad(1, "grnd_ID",
-              "/1 scales the mass of a group of nodes only: write its /GRNOD id on the next line, or take /1 out for all nodes");
-      }
-      for (const Id id : groups) {
-        const auto group = c_.tables.node_groups.find(id);
-        if (group == c_.tables.node_groups.end()) {
-          d.bad(1, "grnd_ID", fmt::format("no /GRNOD with id {}", id));
-          continue;
-        }
-        k_.mass_scaling_nodes = c_.model->node_groups[static_cast<std::size_t>(group->second)].nodes;
-      }
+    if (d.real(2, "Mratio") != 0.0) {
+      d.bad(0, "Mratio", "a limit of the added mass is not supported: write 0; /STOP with Mmax ends a run that adds too much");
     }
+    k_.mass_scaling = true;
+    const std::string_view flag = block.word(3);
+    if (!flag.empty() && flag != "0" && flag != "1") {
+      d.bad(0, "Iflag", fmt::format("'{}' is not 0 (all nodes) or 1 (the /GRNOD of the next line)", flag));
+    }
+    k_.mass_scaling_nodes = flag == "1" ? std::optional(scaled_nodes(d)) : std::nullopt;
     return true;
+  }
+
+  /// The nodes of all groups from the second line on.
+  std::vector<Index> scaled_nodes(FreeFormat& d) {
+    std::vector<Index> nodes;
+    const std::vector<Id> groups = d.integers(1, "grnd_ID");
+    if (groups.empty()) {
+      d.bad(1, "grnd_ID",
+            "/1 scales the mass of a group of nodes only: write its /GRNOD id on the next line, or take /1 out for all nodes");
+    }
+    for (const Id id : groups) {
+      const auto found = c_.tables.node_groups.find(id);
+      if (found == c_.tables.node_groups.end()) {
+        d.bad(1, "grnd_ID", fmt::format("no /GRNOD with id {}", id));
+        continue;
+      }
+      const NodeGroup& group = c_.model->node_groups[static_cast<std::size_t>(found->second)];
+      if (group.nodes.empty())
+        d.bad(1, "grnd_ID", fmt::format("/GRNOD {} holds no node; name one that does, or take /1 out for all nodes", id));
+      nodes.insert(nodes.end(), group.nodes.begin(), group.nodes.end());
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
   }
 
   bool read_contact_step(const deck::Block& block, const std::string& action) {
@@ -351,7 +346,7 @@ class EngineReader {
       k_.animation_interval = interval > 0.0 ? interval : infinity;
       return true;
     }
-    if (field.empty() || field == "GZIP" || field.starts_with("VERS")) return true;
+    if (field.empty() || field == "GZIP" || field.starts_with("VERS")) return no_data(block);
     if (std::find(k_.animation_fields.begin(), k_.animation_fields.end(), field) == k_.animation_fields.end()) {
       k_.animation_fields.push_back(field);
     }
@@ -360,6 +355,7 @@ class EngineReader {
       left_out_.push_back(named(block));
     }
     return true;
+    return no_data(block);
   }
 
   bool read_rigid_bodies(const deck::Block& block) {
@@ -389,6 +385,7 @@ class EngineReader {
   Place first_refused_;
   std::vector<std::string> left_out_;  ///< fields of the animation
   Place first_left_out_;
+  std::map<std::string, int> line_of_;  ///< of settings
   std::set<std::string> skipped_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -322,8 +323,8 @@ struct Controls {
   StepControl shell, sh3n, brick, tetra;
   bool nodal_step = false;  ///< /DT/NODA in any form
   double nodal_scale = 0.9, nodal_minimum = 0.0;
-  bool mass_scaling = false;              ///< /DT/NODA/CST
-  std::vector<Index> mass_scaling_nodes;  ///< empty = all
+  bool mass_scaling = false;                             ///< /DT/NODA/CST
+  std::optional<std::vector<Index>> mass_scaling_nodes;  ///< sorted, distinct; none: all
   double contact_scale = 0.9, contact_minimum = 0.0;
   bool contact_scale_given = false;
   StepControl::Action contact_action = StepControl::Action::none;

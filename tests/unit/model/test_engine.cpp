@@ -81,9 +81,13 @@ TEST(Engine, NodalStepAndMassScaling) {
   const Controls scaled = controls("/RUN/a/1\n1\n/DT/NODA/CST/0\n0.9 1e-06\n");
   EXPECT_TRUE(scaled.mass_scaling);
   EXPECT_EQ(scaled.nodal_minimum, 1e-6);
-  EXPECT_TRUE(scaled.mass_scaling_nodes.empty());
+  EXPECT_FALSE(scaled.mass_scaling_nodes.has_value());
   const Controls group = controls("/RUN/a/1\n1\n/DT/NODA/CST/1\n0.9 1e-06\n3\n");
-  EXPECT_EQ(group.mass_scaling_nodes.size(), 4u);
+  EXPECT_EQ(group.mass_scaling_nodes.value().size(), 4u);
+  const Controls groups = controls("/RUN/a/1\n1\n/DT/NODA/CST/1\n0.9 1e-06\n3 2\n5 3\n");
+  EXPECT_EQ(groups.mass_scaling_nodes.value().size(), 9u);  // 9 to 16 and 30, each once
+  const Built empty = build_text(with_line(base_starter, "/GRNOD/NODE/3", 2, "        77"), "/RUN/a/1\n1\n/DT/NODA/CST/1\n0.9 1e-06\n3\n");
+  EXPECT_TRUE(empty.has("field 'grnd_ID': /GRNOD 3 holds no node; name one that does, or take /1 out for all nodes"));
 }
 
 TEST(Engine, ContactStep) {
