@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <limits>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 #ifdef __GLIBC__
@@ -151,12 +152,17 @@ int main(int argc, char** argv) {
 #endif
   run.orient = run_orient == "auto";
   check.orient = check_orient == "auto";
-  try {
+  const auto carry_out = [&] {
     if (keywords_app->parsed()) return keywords_command(keywords);
     if (report_app->parsed()) return report_command(report);
     if (replay_app->parsed()) return replay_command(again);
     if (run_app->parsed()) return run_command(run);
     return resume_app->parsed() ? resume_command(resume) : check_command(check);
+  };
+  try {
+    const int status = carry_out();
+    if (std::fflush(stdout) != 0) throw std::runtime_error("the output cannot be written (is the disk full?)");
+    return status;
   } catch (const abut::InputError& e) {
     print_findings(e.diagnostics().all());
     return 1;

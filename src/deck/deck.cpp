@@ -55,6 +55,22 @@ bool read_engine(const fs::path& starter, int run, Deck& deck, Diagnostics& diag
   return true;
 }
 
+/// Warns of Engine decks that no run reaches, because the one after run `last` is missing.
+void check_later_runs(const fs::path& starter, int last, Diagnostics& diagnostics) {
+  constexpr int looked_at = 100;
+  std::error_code error;
+  for (int run = last + 2; run <= last + looked_at; ++run) {
+    const fs::path later = engine_path(starter, run);
+    if (later.empty() || !fs::exists(later, error)) continue;
+    Place place;
+    place.file = printable(later.string());
+    diagnostics.warning("deck.missing_run", std::move(place),
+                        fmt::format("this Engine deck is not read: that of run {} before it, '{}', is missing", last + 1,
+                                    printable(engine_path(starter, last + 1).filename().string())));
+    return;
+  }
+}
+
 }  // namespace
 
 bool Block::is(std::size_t i, std::string_view upper_case) const { return same_word(word(i), upper_case); }
@@ -105,12 +121,23 @@ DeckPair read(const fs::path& starter, Diagnostics& diagnostics) {
   }
   StarterScanner scanner(pair.starter, diagnostics, starter);
   scanner.scan_main(std::move(text), place.file, start);
-  if (!pair.has_engine) pair.has_engine = read_engine(starter, 1, pair.engine, diagnostics);
+  if (pair.has_engine) {
+    std::error_code error;
+    const fs::path beside = engine_path(starter, 1);
+    if (!beside.empty() && fs::exists(beside, error)) {
+      diagnostics.warning("deck.two_engines", place,
+                          fmt::format("the Engine part at the head of this file counts; '{}' beside it is not read, take one of them away",
+                                      printable(beside.filename().string())));
+    }
+  } else {
+    pair.has_engine = read_engine(starter, 1, pair.engine, diagnostics);
+  }
   for (int run = 2; pair.has_engine; ++run) {
     Deck next;
     if (!read_engine(starter, run, next, diagnostics)) break;
     pair.restarts.push_back(std::move(next));
   }
+  check_later_runs(starter, static_cast<int>(pair.restarts.size()) + (pair.has_engine ? 1 : 0), diagnostics);
   return pair;
 }
 

@@ -170,6 +170,11 @@ void StarterScanner::scan_main(std::string text, std::string name, std::size_t s
   if (deck_.blocks.empty()) {
     diagnostics_.error("deck.no_keyword", line_place(deck_, file, 0),
                        "no keyword line (a line that starts with '/') found: this is not a Starter deck");
+  } else if (!ended_) {
+    const bool within_line = deck_.texts.front().back() != '\n';
+    diagnostics_.warning("deck.no_end", line_place(deck_, file, 0),
+                         fmt::format("there is no /END: the file may be cut off{}; end a whole deck with /END",
+                                     within_line ? ", and within a line, where a number would be cut too" : ""));
   }
 }
 
@@ -211,7 +216,10 @@ void StarterScanner::scan(int file, std::size_t start, const std::filesystem::pa
     if (!line.empty() && line.front() == '/') {
       in_prose = false;
       const std::vector<std::string_view> words = split_words(line);
-      if (!words.empty() && same_word(words.front(), "END")) break;
+      if (!words.empty() && same_word(words.front(), "END")) {
+        ended_ = ended_ || !included;
+        break;
+      }
       open_block(line, file, lines.line());
     } else if (is_misspelt_include(line)) {
       diagnostics_.error("deck.include", line_place(deck_, file, lines.line()),

@@ -40,6 +40,7 @@ class StarterScanner {
   bool open_ = false;      ///< cards belong to blocks.back()
   bool skipping_ = false;  ///< cards belong to a block that is ignored
   bool told_stray_ = false;
+  bool ended_ = false;  ///< the main file has its /END
 };
 
 void scan_engine(Deck& deck, Diagnostics& diagnostics, std::string text, std::string name);

@@ -15,8 +15,7 @@ namespace {
 
 class MotionChecks {
  public:
-  explicit MotionChecks(Context& c)
-      : c_(c), m_(*c.model), d_(*c.diagnostics), body_(static_cast<std::size_t>(m_.node_count()), nullptr) {
+  explicit MotionChecks(Context& c) : c_(c), m_(*c.model), d_(*c.diagnostics), body_(static_cast<std::size_t>(m_.node_count()), nullptr) {
     for (const RigidBody& b : m_.rigid_bodies) {
       if (b.sensor != no_index || !b.active || b.main == no_index) continue;
       for (const Index n : b.nodes) body_[static_cast<std::size_t>(n)] = &b;
@@ -74,16 +73,16 @@ class MotionChecks {
       const Place place = place_of(c_, name_of(motion.kind), motion.id);
       if (!following.empty()) {
         const bool one = following.size() == 1;
-        d_.warning(
-            "model.motion_of_rigid_body", place,
-            fmt::format("{} of a rigid body and {} it: {}; impose the motion on the main node",
-                        one ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", following.size()),
-                        one ? "follows" : "follow", list(ids_of(following))));
+        d_.warning("model.motion_of_rigid_body", place,
+                   fmt::format("{} of a rigid body and {} it: {}; impose the motion on the main node",
+                               one ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", following.size()),
+                               one ? "follows" : "follow", list(ids_of(following))));
       }
       if (!held.empty()) {
-        d_.warning("model.motion_of_held_node", place,
-                   fmt::format("a /BCS holds {} in this direction and the motion does nothing there: {}; take the direction out of the /BCS",
-                               plural(held.size(), "node", "nodes"), list(ids_of(held))));
+        d_.warning(
+            "model.motion_of_held_node", place,
+            fmt::format("a /BCS holds {} in this direction and the motion does nothing there: {}; take the direction out of the /BCS",
+                        plural(held.size(), "node", "nodes"), list(ids_of(held))));
       }
       if (other != nullptr) {
         d_.warning("model.motion_twice", place,
@@ -117,7 +116,8 @@ class MotionChecks {
     collect(m_.initial_velocities);
     collect(m_.initial_rotations);
     for (const auto& [id, nodes] : nodes_of) {
-      following("INIVEL", id, nodes, [&](Index main) { return moving.contains(main); }, "give the velocity to {}");
+      following(
+          "INIVEL", id, nodes, [&](Index main) { return moving.contains(main); }, "give the velocity to {}");
     }
   }
 

@@ -34,6 +34,18 @@ deck::Columns to_old_layout(deck::Columns c) {
 
 std::string quoted(std::string_view text) { return "'" + deck::printable(text) + "'"; }
 
+/// Two numbers or more and nothing else.
+bool is_row_of_numbers(std::string_view text) {
+  int numbers = 0;
+  while (!(text = deck::trimmed(text)).empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+    if (!deck::parse_real(text.substr(0, end))) return false;
+    text.remove_prefix(end);
+    ++numbers;
+  }
+  return numbers > 1;
+}
+
 /// The title after the id on a keyword line of the old layout: "/PART/3/lower block".
 std::string_view title_of_keyword_line(const deck::Block& block, std::size_t id_word) {
   if (block.words.size() <= id_word + 1) return {};
@@ -91,6 +103,13 @@ BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word
     title_ = deck::printable(deck::trimmed(block.cards.front().text.substr(0, deck::card_width)));
     titled_ = true;
     next_ = 1;
+    if (is_row_of_numbers(title_)) {
+      context.diagnostics->warning(
+          "deck.title_of_numbers", context.deck->place(block, block.cards.front()),
+          fmt::format("{} is taken for the title, which is always the line below the keyword line; where it is data, "
+                      "put a title line before it",
+                      quoted(std::string_view(title_))));
+    }
   }
 }
 

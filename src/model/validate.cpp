@@ -8,6 +8,7 @@
 
 #include "model/condition_fields.hpp"
 #include "model/measure.hpp"
+#include "model/topology.hpp"
 #include "model/wording.hpp"
 
 namespace abut::model {
@@ -30,6 +31,7 @@ class Validator {
     rigid_bodies(masses_are_known);
     if (masses_are_known) loads_on_massless_nodes();
     check_motions(c_);
+    if (masses_are_known) something_moves();
     unused_functions();
   }
 
@@ -288,6 +290,20 @@ class Validator {
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       check("PLOAD", l.id, nodes);
     }
+  }
+
+  /// Nothing moves where there is no element, mass, rigid body or imposed motion: the deck is cut off.
+  void something_moves() {
+    const bool elements = m_.shells.size() + m_.sh3ns.size() + solid_count(m_) > 0;
+    if (d_.has_errors() || elements || !m_.rigid_bodies.empty() || !m_.imposed_motions.empty() ||
+        std::any_of(mass_.begin(), mass_.end(), [](double m) { return m > 0.0; }) ||
+        std::any_of(m_.rigid_walls.begin(), m_.rigid_walls.end(), [](const RigidWall& w) { return w.mass > 0.0; })) {
+      return;
+    }
+    Place deck;
+    deck.file = c_.deck->files.front();
+    d_.error("model.nothing_moves", std::move(deck),
+             "the model has no element and no mass; give it elements, or nodes masses by /ADMAS or /RBODY");
   }
 
   void unused_functions() {

@@ -21,6 +21,8 @@ std::string list(const std::vector<T>& items) {
   return s;
 }
 
-inline std::string plural(std::size_t n, std::string_view one, std::string_view many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+inline std::string plural(std::size_t n, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
 
 }  // namespace abut::model

@@ -40,6 +40,10 @@ std::size_t card_line(const std::vector<std::string>& lines, std::size_t keyword
 
 void write_oriented_deck(const std::filesystem::path& starter, const std::filesystem::path& target, const model::Model& model,
                          const std::vector<init::TurnedSurface>& turned) {
+  std::error_code unequal;
+  if (std::filesystem::equivalent(starter, target, unequal)) {
+    throw RunError(fmt::format("--write-deck would overwrite the deck it reads, {}: name another file", starter.string()));
+  }
   std::ifstream in(starter, std::ios::binary);
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);

@@ -26,9 +26,11 @@ std::vector<std::string> card_texts(const Block& b) {
   return out;
 }
 
+/// With /END at its end where the text has none.
 Deck scan(const std::string& text) {
   Diagnostics d;
-  Deck deck = read_starter_text(text, "t_0000.rad", d);
+  const bool ends = text.find("/END\n") != std::string::npos;
+  Deck deck = read_starter_text(ends ? text : text + "\n/END\n", "t_0000.rad", d);
   EXPECT_EQ(messages(d), std::vector<std::string>{});
   return deck;
 }
@@ -94,7 +96,7 @@ TEST(Scanner, Surprise10BlankCardsInsideCountAndAtTheEndDoNot) {
 }
 
 TEST(Scanner, Surprise17CarriageReturnsMissingNewlineForeignBytes) {
-  const Deck deck = scan("#caf\xe9\r\n/NODE\r\n         1\r\n         2");
+  const Deck deck = scan("#caf\xe9\r\n/NODE\r\n         1\r\n         2\r\n/END");
   ASSERT_EQ(deck.blocks.size(), 1u);
   EXPECT_EQ(card_texts(deck.blocks[0]), (std::vector<std::string>{"         1", "         2"}));
   EXPECT_EQ(deck.blocks[0].name(), "/NODE");
@@ -123,7 +125,7 @@ TEST(Scanner, SubmodelKeepsItsSecondSlash) {
 
 TEST(Scanner, DataBeforeTheFirstKeywordIsAWarning) {
   Diagnostics d;
-  (void)read_starter_text("1 2 3\n4\n/NODE\n", "t", d);
+  (void)read_starter_text("1 2 3\n4\n/NODE\n/END\n", "t", d);
   EXPECT_EQ(messages(d),
             std::vector<std::string>{"t:1: warning: data before the first keyword is ignored: a data line belongs below a keyword line"});
 }
@@ -139,13 +141,13 @@ TEST(Scanner, TextWithoutKeywordIsAnError) {
 
 TEST(Scanner, LoneSlashIsAnError) {
   Diagnostics d;
-  (void)read_starter_text("/NODE\n/ /\n5\n", "t", d);
+  (void)read_starter_text("/NODE\n/ /\n5\n/END\n", "t", d);
   EXPECT_EQ(messages(d), std::vector<std::string>{"t:2: a keyword line holds nothing but '/': a keyword such as /NODE is needed"});
 }
 
 TEST(Scanner, IncludeNeedsAFile) {
   Diagnostics d;
-  (void)read_starter_text("/NODE\n#include x.inc\n#included is only a comment\n", "t", d);
+  (void)read_starter_text("/NODE\n#include x.inc\n#included is only a comment\n/END\n", "t", d);
   EXPECT_EQ(messages(d), std::vector<std::string>{"t:2: #include needs a deck that is read from a file, not from memory"});
 }
 
@@ -208,7 +210,7 @@ TEST(Include, Surprise4And5WholeDeckWithItsOwnBeginAndEnd) {
 
 TEST(Include, MissingFileNamesWhereItWasSearched) {
   const Folder folder;
-  const fs::path main = folder.write("a_0000.rad", "/NODE\n#include gone.inc\n#include \n");
+  const fs::path main = folder.write("a_0000.rad", "/NODE\n#include gone.inc\n#include \n/END\n");
   Diagnostics d;
   (void)read(main, d);
   EXPECT_EQ(messages(d), (std::vector<std::string>{main.string() + ":2: included file 'gone.inc' not found or not readable; searched in '" +
@@ -241,7 +243,9 @@ TEST(OneFile, EnginePartComesFirst) {
   folder.write("one_0001.rad", "/RUN/one/1\n99\n");
   Diagnostics d;
   const DeckPair pair = read(main, d);
-  EXPECT_EQ(messages(d), std::vector<std::string>{});
+  EXPECT_EQ(messages(d),
+            std::vector<std::string>{main.string() + ": warning: the Engine part at the head of this file counts; 'one_0001.rad' beside "
+                                                     "it is not read, take one of them away"});
   EXPECT_TRUE(pair.has_engine);
   ASSERT_EQ(pair.engine.blocks.size(), 1u);
   EXPECT_EQ(card_texts(pair.engine.blocks[0]), std::vector<std::string>{" 0.5"});
@@ -274,14 +278,34 @@ TEST(Files, EngineIsFoundBesideTheStarterDeck) {
   folder.write("BARD01", "/RUN/bar/1\n1\n");
   folder.write("BARD02", "/RUN/bar/2\n1\n");
   Diagnostics d;
-  EXPECT_TRUE(read(folder.write("m_0000.rad", "/NODE\n"), d).has_engine);
+  EXPECT_TRUE(read(folder.write("m_0000.rad", "/NODE\n/END\n"), d).has_engine);
   EXPECT_FALSE(d.has_errors());
   EXPECT_EQ(d.warning_count(), 0);
-  const DeckPair bar = read(folder.write("BARD00", "/NODE\n"), d);
+  const DeckPair bar = read(folder.write("BARD00", "/NODE\n/END\n"), d);
   EXPECT_TRUE(bar.has_engine);
   EXPECT_EQ(bar.restarts.size(), 1u);  // run 2 goes on from it
   EXPECT_EQ(d.warning_count(), 0);
   EXPECT_FALSE(read(folder.write("other.rad", "/NODE\n"), d).has_engine);
+}
+
+TEST(Files, AnEngineDeckAfterAHoleIsNamed) {
+  const Folder folder;
+  for (const char* name : {"m_0001.rad", "m_0003.rad", "m_0004.rad"}) folder.write(name, "/RUN/m/1\n1\n");
+  Diagnostics d;
+  EXPECT_TRUE(read(folder.write("m_0000.rad", "/NODE\n/END\n"), d).restarts.empty());
+  EXPECT_EQ(messages(d),
+            std::vector<std::string>{(folder.path() / "m_0003.rad").string() +
+                                     ": warning: this Engine deck is not read: that of run 2 before it, 'm_0002.rad', is missing"});
+}
+
+TEST(Scanner, ADeckWithoutEndMayBeCutOff) {
+  for (const auto& [text, where] :
+       {std::pair{"/NODE\n         1\n", ""}, std::pair{"/NODE\n         1", ", and within a line, where a number would be cut too"}}) {
+    Diagnostics d;
+    (void)read_starter_text(text, "t", d);
+    EXPECT_EQ(messages(d), std::vector<std::string>{"t: warning: there is no /END: the file may be cut off" + std::string(where) +
+                                                    "; end a whole deck with /END"});
+  }
 }
 
 TEST(Files, AMissingDeckIsAnError) {

@@ -5,6 +5,12 @@ namespace abut::model::base_deck {
 // clang-format off
 std::vector<BrokenDeck> broken_meshes_and_sets() {
   return {
+    {"function without its title", Changed::starter, "/FUNCT/1", 1,
+     "                  -1                   0",
+     {"deck_0000.rad:78: warning: /FUNCT/1: '-1                   0' is taken for the title, which is always the line below the keyword line; where it is data, put a title line before it"}},
+    {"group without its title", Changed::starter, "/GRNOD/NODE/3", 1,
+     "        13        14        15",
+     {"deck_0000.rad:93: warning: /GRNOD/NODE/3: '13        14        15' is taken for the title, which is always the line below the keyword line; where it is data, put a title line before it"}},
     {"node coordinate is not a number", Changed::starter, "/NODE", 3,
      "         3                   1               1.2.3                   0",
      {"deck_0000.rad:12: /NODE field 'Y' (columns 31-50): '1.2.3' is not a real number"}},

@@ -29,9 +29,9 @@ struct Reading {
     context.model = &model;
     context.diagnostics = &diagnostics;
   }
-  /// Control cards, mesh and sets of `text`.
+  /// Control cards, mesh and sets of `text`, which needs no /END.
   void read(const std::string& text, const std::string& file = "t_0000.rad") {
-    deck = deck::read_starter_text(text, file, diagnostics);
+    deck = deck::read_starter_text(text + "\n/END\n", file, diagnostics);
     attach();
     read_control(context);
     read_mesh(context);

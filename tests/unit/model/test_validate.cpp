@@ -39,6 +39,16 @@ TEST(Validate, PartsWithoutElementsAndUnusedFunctionsAreNoted) {
   EXPECT_EQ(b.messages(), (std::vector<std::string>{"note: this part has no element: 9", "note: nothing uses this /FUNCT: 8"}));
 }
 
+TEST(Validate, AModelWithoutMassIsAnError) {
+  const std::string head = std::string("/BEGIN\nempty\n      2022         0\n\n\n");
+  const std::string node = "/NODE\n" + testing::node(1, "0", "0", "0");
+  EXPECT_TRUE(build_text(head + "/TITLE\nempty\n/END\n")
+                  .has("deck_0000.rad: the model has no element and no mass; give it elements, or nodes masses by"));
+  EXPECT_TRUE(build_text(head + node + "/END\n").has("deck_0000.rad: the model has no element and no mass"));
+  const std::string mass = "/ADMAS/5/1\nball\n                   1         1\n";
+  EXPECT_FALSE(build_text(head + node + mass + "/END\n").diagnostics.has_errors());
+}
+
 TEST(SharedDecks, BuildWithoutAnError) {
   const std::filesystem::path folder = testing::decks_folder();
   if (folder.empty()) GTEST_SKIP() << "no shared decks: set ABUT_DECKS to the folder that holds them";
