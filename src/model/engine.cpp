@@ -25,7 +25,6 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
   return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return text.starts_with(w); });
 }
 
-
 class EngineReader {
  public:
   EngineReader(Context& c, const deck::Deck& engine, int run) : c_(c), engine_(engine), k_(c.model->controls), run_(run) {}
@@ -354,7 +353,6 @@ class EngineReader {
       if (left_out_.empty()) first_left_out_ = engine_.place(block);
       left_out_.push_back(named(block));
     }
-    return true;
     return no_data(block);
   }
 

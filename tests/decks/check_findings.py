@@ -8,6 +8,8 @@ Standard library only. Exit status 0 when all holds.
 import csv
 import json
 import os
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -105,6 +107,20 @@ def main():
             found, status, document = check(fixed)
             expect(status == 0 and "contact.normals_away" not in found and "contact.mixed_orientation" not in found,
                    f"the deck that --write-deck wrote for {name} is sound: {status} {sorted(found)}")
+        same = os.path.join(work, "normals_away_0000.rad")
+        before = open(same, encoding="latin-1").read()
+        refused = subprocess.run([abut, "check", same, "--orient", "auto", "--write-deck", os.path.join(work, ".", "normals_away_0000.rad")],
+                                 capture_output=True, text=True)
+        expect(refused.returncode == 1 and "would overwrite the deck it reads" in refused.stderr
+               and open(same, encoding="latin-1").read() == before, f"--write-deck leaves its own deck alone: {refused.stderr}")
+
+        def no_room():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+        with open(os.path.join(work, "full"), "w") as full:
+            cut = subprocess.run([abut, "check", deck("sound")], stdout=full, stderr=subprocess.PIPE, text=True, preexec_fn=no_room)
+        expect(cut.returncode == 1 and "the output cannot be written" in cut.stderr, f"check without room for its output: {cut.returncode}")
         for code, (name, twin, profile) in DURING.items():
             for which in (name, twin):
                 output = os.path.join(work, "r" + which)
