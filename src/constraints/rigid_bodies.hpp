@@ -56,10 +56,10 @@ class RigidBodies {
   [[nodiscard]] int revision() const { return revision_; }
 
   /// Step 11: f, m, stiffness and rotational stiffness of secondary nodes go to the main node; their own stiffness is reset to
-  /// 1e-20 (they do not control the step), their f is kept for output. In the standard profile the main node's two stiffnesses are
-  /// then its mass and inertia times the square of the body's largest frequency (body_frequency.hpp). Turns the principal axes by w h_-
-  /// first. Reference profile: sets the main node's moment to inertia times the angular acceleration of Euler's equations, so that alpha =
-  /// m / inertia holds for it too.
+  /// zero (they do not control the step; 1e-20 in the reference profile), their f is kept for output. In the standard profile the main
+  /// node's two stiffnesses are then its mass and inertia times the square of the body's largest frequency (body_frequency.hpp). Turns the
+  /// principal axes by w h_- first. Reference profile: sets the main node's moment to inertia times the angular acceleration of Euler's
+  /// equations, so that alpha = m / inertia holds for it too.
   void gather(state::State& state, const BoundaryConditions& conditions);
 
   /// After step 16, standard profile: angular acceleration of the main nodes by Euler's equations, over the step that is now

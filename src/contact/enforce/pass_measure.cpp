@@ -295,7 +295,8 @@ double Pass::opening_of(const Side& held, const Side& surface, Index i) const {
     nearest = other;
     best = &entry;
   }
-  if (nearest.beyond) return none;
+  // Beyond their reach lists need not hold the nearest facet: what is said must not depend on how old they are.
+  if (nearest.beyond || nearest.squared_distance > reach() * reach()) return none;
   const Measure m = signed_measure(surface, best->facet, nearest, x);
   Looks looks(surface, x);
   return m.distance - outer_gap(held, surface, i, m, {}, border_strip, false, looks).gap;

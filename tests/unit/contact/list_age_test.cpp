@@ -1,6 +1,7 @@
 // Search lists live until something has moved by a skin: nothing that an interface says or remembers may depend on how old they are.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "unit/contact/bench_host.hpp"
@@ -43,6 +44,19 @@ struct Wanderers {
   }
 };
 
+/// What an interface shows of its nodes.
+std::vector<double> openings(const Interface& interface, const Host& host) {
+  std::vector<NodalContact> nodes(host.x.size());
+  interface.add_nodal_contact(nodes);
+  std::vector<double> all;
+  for (const NodalContact& node : nodes) {
+    all.push_back(std::isnan(node.opening) ? 1e300 : node.opening);
+    all.push_back(node.penetration);
+    all.push_back(static_cast<double>(node.state));
+  }
+  return all;
+}
+
 // T1, docs/determinism.md: an interface that goes on from a history makes new lists, and must say and remember what the other does.
 TEST(History, does_not_depend_on_the_age_of_the_lists) {
   constexpr int steps = 120;
@@ -60,12 +74,14 @@ TEST(History, does_not_depend_on_the_age_of_the_lists) {
       whole.place(a, w.path[static_cast<std::size_t>(step)]);
       touched += whole.last.in_contact;
       const std::vector<std::byte> history = a.history();
+      const std::vector<double> shown = openings(a, whole);
       for (auto& [host, b] : resumed) {
         host.place(b, w.path[static_cast<std::size_t>(step)]);
         ASSERT_EQ(host.f, whole.f) << "step " << step << ", seed " << seed;
         ASSERT_EQ(host.k, whole.k) << "step " << step << ", seed " << seed;
         ASSERT_EQ(host.last.largest_approach, whole.last.largest_approach) << "step " << step << ", seed " << seed;
         ASSERT_EQ(host.last.kinematic_step, whole.last.kinematic_step) << "step " << step << ", seed " << seed;
+        ASSERT_EQ(openings(b, host), shown) << "step " << step << ", seed " << seed;
         ASSERT_TRUE(b.history() == history) << "step " << step << ", seed " << seed;
       }
     }
