@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import abut
-from support import DECKS, STEEL, builder, cube, held_bytes, one_cube, two_blocks
+from support import DECKS, STEEL, builder, cube, held_bytes, two_blocks
 
 
 def run_of(**arguments):
