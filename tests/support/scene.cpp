@@ -208,6 +208,15 @@ void Scene::velocity(const std::vector<Index>& nodes, const Vec3& v) {
   model.initial_velocities.push_back({static_cast<Id>(model.initial_velocities.size()) + 1, false, v, nodes});
 }
 
+Index Scene::rigid_body(const std::vector<Index>& nodes, const Vec3& centre) {
+  model::RigidBody body;
+  body.id = static_cast<Id>(model.rigid_bodies.size()) + 1;
+  body.main = node(centre);
+  body.nodes = nodes;
+  model.rigid_bodies.push_back(body);
+  return body.main;
+}
+
 void Scene::fix(const std::vector<Index>& nodes, std::array<bool, 3> translation, std::array<bool, 3> rotation) {
   model.boundary_conditions.push_back({static_cast<Id>(model.boundary_conditions.size()) + 1, translation, rotation, no_index, nodes});
 }

@@ -50,6 +50,8 @@ class Scene {
   Index shell_surface(Index part);
 
   void velocity(const std::vector<Index>& nodes, const Vec3& v);
+  /// @return the main node, a new one
+  Index rigid_body(const std::vector<Index>& nodes, const Vec3& centre);
   void fix(const std::vector<Index>& nodes, std::array<bool, 3> translation, std::array<bool, 3> rotation = {});
   Index function(std::vector<double> x, std::vector<double> y);
   void load(const std::vector<Index>& nodes, int direction, double total, Index function = no_index);

@@ -22,15 +22,6 @@ namespace model = abut::model;
 
 constexpr double young = 210e9, density = 7800.0;
 
-Index rigid(Scene& s, const std::vector<Index>& nodes, const Vec3& centre) {
-  model::RigidBody body;
-  body.id = static_cast<abut::Id>(s.model.rigid_bodies.size()) + 1;
-  body.main = s.node(centre);
-  body.nodes = nodes;
-  s.model.rigid_bodies.push_back(body);
-  return body.main;
-}
-
 enum class Lower { clamped, sliding, rigid };
 
 /// A plate of 6 by 6 shells falls at 5 m/s on one of 8 by 8 that cannot move, can move in its plane only, or is a free rigid body.
@@ -48,10 +39,10 @@ model::Model plates(Lower lower, bool rigid_upper, double scale) {
       },
       true);
   s.velocity(above, {0, 0, -5});
-  if (rigid_upper) s.velocity({rigid(s, above, {0.0363, 0.0371, 0.00105})}, {0, 0, -5});
+  if (rigid_upper) s.velocity({s.rigid_body(above, {0.0363, 0.0371, 0.00105})}, {0, 0, -5});
   if (lower == Lower::clamped) s.fix(below, {true, true, true}, {true, true, true});
   if (lower == Lower::sliding) s.fix(below, {false, false, true}, {true, true, true});
-  if (lower == Lower::rigid) rigid(s, below, {0.04, 0.04, 0});
+  if (lower == Lower::rigid) s.rigid_body(below, {0.04, 0.04, 0});
   s.contact(s.shell_surface(a), s.shell_surface(b), 0.2, 0.0, 0.001);
   s.end(6e-4, 0.0, scale);
   return s.model;
@@ -75,7 +66,7 @@ model::Model cube(double scale) {
     centre += s.model.node_x[static_cast<std::size_t>(n)] / static_cast<double>(block.nodes.size());
   }
   s.velocity(block.nodes, {0, 0, -2});
-  s.velocity({rigid(s, block.nodes, centre)}, {0, 0, -2});
+  s.velocity({s.rigid_body(block.nodes, centre)}, {0, 0, -2});
   s.contact(s.shell_surface(plate), s.surface(block, 2, false));
   s.end(2e-3, 0.0, scale);
   return s.model;

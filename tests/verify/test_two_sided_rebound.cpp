@@ -37,15 +37,6 @@ void add_type7(Scene& s, const std::vector<Index>& nodes, Index surface, double 
   s.model.interfaces.push_back(std::move(i));
 }
 
-Index rigid(Scene& s, const std::vector<Index>& nodes, const Vec3& centre) {
-  model::RigidBody body;
-  body.id = static_cast<abut::Id>(s.model.rigid_bodies.size()) + 1;
-  body.main = s.node(centre);
-  body.nodes = nodes;
-  s.model.rigid_bodies.push_back(body);
-  return body.main;
-}
-
 /// What a run says of its contact, of the largest energy.
 struct Found {
   double err = 0.0, cx = 0.0, last_cx = 0.0;
@@ -80,7 +71,7 @@ TEST(TwoSidedRebound, RigidBodiesKeepEnergyAndMomentum) {
       const auto lower = s.block(s.part(s.solid_property(), steel), {-0.06, -0.06, -0.03}, {0.12, 0.12, 0.03}, {1, 1, 1});
       const auto upper = s.block(s.part(s.solid_property(), aluminium), {-0.03, -0.03, clear * gap}, {0.06, 0.06, 0.06}, {1, 1, 1});
       add_type7(s, upper.nodes, s.surface(lower, 2, true), 0.0, 0.0);
-      const Index below = rigid(s, lower.nodes, {0, 0, -0.015}), above = rigid(s, upper.nodes, {0, 0, clear * gap + 0.03});
+      const Index below = s.rigid_body(lower.nodes, {0, 0, -0.015}), above = s.rigid_body(upper.nodes, {0, 0, clear * gap + 0.03});
       s.velocity(upper.nodes, {0, 0, -speed});
       s.velocity({above}, {0, 0, -speed});
       s.end(6.0 * gap / speed);
