@@ -1,7 +1,6 @@
 // Engine deck -> Model::controls (deck-format.md G). Data lines are free format; the order of keywords is free.
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,12 +13,6 @@
 namespace abut::model {
 
 namespace {
-
-std::string upper(std::string_view text) {
-  std::string s(text);
-  for (char& x : s) x = static_cast<char>(std::toupper(static_cast<unsigned char>(x)));
-  return s;
-}
 
 bool starts_with_any(std::string_view text, std::initializer_list<std::string_view> words) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return text.starts_with(w); });
@@ -82,10 +75,10 @@ class EngineReader {
   /// Settings of which the last counts: two of them are rarely meant.
   void check_repeated(const deck::Block& block) {
     static const std::set<std::string> settings{"RUN", "TFILE", "PRINT", "RFILE", "STOP", "DT", "DTIX", "ANIM"};
-    std::string setting = upper(block.word(0));
+    std::string setting = deck::to_upper(block.word(0));
     if (!settings.contains(setting)) return;
     const bool has_kinds = setting == "DT" || setting == "ANIM" || (setting == "TFILE" && !is_id(block.word(1)));
-    if (has_kinds && !block.word(1).empty()) setting += "/" + upper(block.word(1));
+    if (has_kinds && !block.word(1).empty()) setting += "/" + deck::to_upper(block.word(1));
     if (setting.starts_with("ANIM") && setting != "ANIM/DT") return;
     const auto [first, inserted] = line_of_.emplace(setting, block.line);
     if (inserted) return;
@@ -136,7 +129,7 @@ class EngineReader {
 
   /// true: the block is understood, or may be skipped.
   bool read_block(const deck::Block& block) {
-    const std::string word = upper(block.word(0));
+    const std::string word = deck::to_upper(block.word(0));
     if (word == "RUN") return read_run(block);
     if (word == "TFILE") return read_history(block);
     if (word == "PRINT") return read_print(block);
@@ -232,8 +225,8 @@ class EngineReader {
   }
 
   bool read_step(const deck::Block& block) {
-    const std::string type = upper(block.word(1));
-    const std::string action = upper(block.word(2));
+    const std::string type = deck::to_upper(block.word(1));
+    const std::string action = deck::to_upper(block.word(2));
     if (type.empty()) return true;  // read first
     if (type == "NODA") return read_nodal_step(block, action);
     if (type == "INTER") return read_contact_step(block, action);

@@ -68,10 +68,7 @@ void PendingFile::write(std::string_view piece) {
   if (const int error = write_all(descriptor_, piece); error != 0) fail("write", path_, error);
 }
 
-namespace {
-
-/// The file that a rename may replace: what a link points to.
-std::filesystem::path replaceable(const std::filesystem::path& path) {
+std::filesystem::path file_place(const std::filesystem::path& path) {
   std::error_code error;
   const bool link = std::filesystem::is_symlink(path, error);
   const std::filesystem::file_status there = std::filesystem::status(path, error);
@@ -83,9 +80,7 @@ std::filesystem::path replaceable(const std::filesystem::path& path) {
   return link ? std::filesystem::canonical(path) : path;
 }
 
-}  // namespace
-
-AtomicFile::AtomicFile(const std::filesystem::path& path) : PendingFile(replaceable(path)) {}
+AtomicFile::AtomicFile(const std::filesystem::path& path) : PendingFile(file_place(path)) {}
 
 void AtomicFile::write(std::string_view piece) {
   PendingFile::write(piece);
@@ -120,13 +115,6 @@ void sync_file(const std::filesystem::path& path) {
   ::close(descriptor);
   if (error == EINVAL) error = 0;  // a file system that cannot: nothing more can be done
   if (error != 0) fail("write", path, error);
-}
-
-std::filesystem::path file_place(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(std::filesystem::symlink_status(path, error))) return path;
-  if (std::filesystem::is_regular_file(path, error)) return std::filesystem::canonical(path);
-  throw RunError(fmt::format("cannot write '{}': what is there is not a file", path.string()));
 }
 
 void DurableFile::replace(const std::filesystem::path& previous) {

@@ -58,6 +58,10 @@ class PendingFile {
   ~PendingFile();  ///< what was not put into its place is gone
 };
 
+/// Where a file is written whose name a user gave: the file that symbolic links lead to.
+/// @throws RunError when there is something else than a file: a folder, a device, a link that leads nowhere
+[[nodiscard]] std::filesystem::path file_place(const std::filesystem::path& path);
+
 /// A file that is written in pieces and renamed at the end: readers see the old content or the new.
 class AtomicFile : public PendingFile {
  public:
@@ -81,10 +85,6 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 
 /// Brings a file's content to the disk (fsync): it survives the machine, not only the process. @throws RunError
 void sync_file(const std::filesystem::path& path);
-
-/// Where a file is written whose name a user gave: the file that symbolic links lead to.
-/// @throws RunError when there is something else than a file: a folder, a device, a link that leads nowhere
-[[nodiscard]] std::filesystem::path file_place(const std::filesystem::path& path);
 
 /// A file that is written in pieces beside its place, and survives the machine once it is in it.
 class DurableFile : public PendingFile {

@@ -219,7 +219,7 @@ def test_a_checkpoint_touches_no_other_file(tmp_path):
     assert (tmp_path / "notes_previous.txt").read_text() == "mine"
     assert abut.Run.load(run.model, tmp_path / "notes.txt").cycle == 1
     (tmp_path / "folder").mkdir()
-    with pytest.raises(abut.RunError, match="what is there is not a file"):
+    with pytest.raises(abut.RunError, match="Is a directory"):
         run.save(tmp_path / "folder")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["folder", "notes.txt", "notes_previous.txt"]
 

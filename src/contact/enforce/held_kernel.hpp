@@ -3,8 +3,8 @@
 //
 //   projection   Newton on |x - X(s,t)|^2 from (0, 0), A ds = -grad, A_ab = X_a.X_b - r.X_ab; from outside, along the sides
 //                (closest_point.hpp)
-//   normal       n that of the facet, in front of an edge or a corner r/|r|; d = n.r, P = gap - d, kappa = s K1(xi) K2/(K1 + K2), phi of
-//   law.hpp                  (pair.hpp)
+//   normal       n that of the facet, in front of an edge or a corner r/|r|; d = n.r, P = gap - d
+//                kappa = s K1(xi) K2/(K1 + K2), phi of law.hpp                                        (pair.hpp)
 //                f = kappa phi' n - c^a X_a,  f_i = -H_i f - c^a H_i,a r,  c^a = phi A^-1_ab dkappa/dxi_b
 //   friction     trial e + dg, e' = min(1, L/(k_t |e + dg|)) (e + dg), e in the facet's frame       (friction.hpp)
 //
