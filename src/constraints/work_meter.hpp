@@ -41,9 +41,10 @@ class ForceWork {
 };
 
 /// Energies that are computed from motion (of elements, of contact) take the work of their force g over the whole step up to t^n at the
-/// velocity V that enters the cycle, leap-frog gives the second half of it at v. Where a wall has changed the velocity, what is missing,
+/// velocity V that enters the cycle, leap-frog gives the second half of it at v. Where a wall or a host has changed the velocity, what is
+/// missing,
 ///     1/2 hb g . (v - V),
-/// is the wall's: without it the balance is wrong to first order in the step where nodes under force are stopped. (Bodies feel impulses of
+/// is theirs: without it the balance is wrong to first order in the step where nodes under force are stopped. (Bodies feel impulses of
 /// walls as accelerations, which are no jumps.)
 class StopWork {
  public:
