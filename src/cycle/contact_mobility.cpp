@@ -140,6 +140,7 @@ void ContactMobility::update_bodies(const state::State& state, const constraints
     const auto& [a, b, c] = column;
     mobility_[i].a = {a.x, b.y, c.z, 0.5 * (a.y + b.x), 0.5 * (b.z + c.y), 0.5 * (c.x + a.z)};
     for (double& entry : mobility_[i].a) entry *= share;
+    mobility_[i].stiffness = own;
   }
 }
 

@@ -1,13 +1,14 @@
 // Rebounds from what is not free: clamped plates, rigid bodies (issue 3, section 3: effective inverse masses; docs/theory/contact.md 3).
 //
 // First and last contact forces and accounts of pairs are made with the pair's effective mass. With plain nodal masses these scenes kept,
-// at 0.9 of the stable step: 0.13 % (clamped plate; the last CX over the largest energy), 7.2 % (rigid plate on a clamped one), 49 %
-// (cube).
+// at 0.9 of the stable step: 0.13 % (clamped plate; the last CX over the largest energy), 7.2 % (rigid plate on a clamped one).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
+#include <vector>
 
 #include "support/recorder.hpp"
 #include "support/scene.hpp"
@@ -48,27 +49,32 @@ model::Model plates(Lower lower, bool rigid_upper, double scale) {
   return s.model;
 }
 
-/// A rigid cube that stands on a corner falls on a clamped plate: one node meets it.
-model::Model cube(double scale) {
+/// A rigid cube, turned somehow, falls corner first on a plate that is clamped or a free rigid body: few nodes meet, at different times.
+model::Model cube(Lower lower, unsigned turn, double scale) {
+  std::mt19937 numbers(turn);
+  const auto any = [&numbers] { return 2.0 * static_cast<double>(numbers()) / 4294967295.0 - 1.0; };
   Scene s("cube");
   const auto material = s.elastic(density, young, 0.3);
   const auto plate = s.part(s.shell_property(0.002), material);
-  const auto below = s.shells(plate, 6, 6, [](double u, double v) { return Vec3{0.12 * u - 0.06, 0.12 * v - 0.06, 0}; });
-  s.fix(below, {true, true, true}, {true, true, true});
-  const Vec3 e3 = normalized(Vec3{0.3, 0.2, 1.0}), e1 = normalized(cross(Vec3{0, 1, 0}, e3)), e2 = cross(e3, e1);
+  const auto below = s.shells(plate, 6, 6, [](double u, double v) { return Vec3{0.12 * u - 0.0617, 0.12 * v - 0.06, 0}; });
+  if (lower == Lower::clamped) s.fix(below, {true, true, true}, {true, true, true});
+  if (lower == Lower::rigid) s.rigid_body(below, {-0.0017, 0, 0});
+  const double ex = 0.5 * any(), ey = 0.5 * any(), aside = any();
+  const Vec3 e3 = normalized(Vec3{ex, ey, 1.0}), e1 = normalized(cross(Vec3{aside, 1, 0}, e3)), e2 = cross(e3, e1);
   const auto turned = [&](const Vec3& p) { return p.x * e1 + p.y * e2 + p.z * e3; };
   auto block = s.block(s.part(s.solid_property(), material), {0, 0, 0}, {0.03, 0.03, 0.03}, {2, 2, 2}, turned);
   double lowest = 1.0;
   for (const Index n : block.nodes) lowest = std::min(lowest, s.model.node_x[static_cast<std::size_t>(n)].z);
   Vec3 centre{};
   for (const Index n : block.nodes) {
-    s.model.node_x[static_cast<std::size_t>(n)].z += 1e-5 - lowest;
+    s.model.node_x[static_cast<std::size_t>(n)].z += 2e-3 - lowest;
     centre += s.model.node_x[static_cast<std::size_t>(n)] / static_cast<double>(block.nodes.size());
   }
-  s.velocity(block.nodes, {0, 0, -2});
-  s.velocity({s.rigid_body(block.nodes, centre)}, {0, 0, -2});
-  s.contact(s.shell_surface(plate), s.surface(block, 2, false));
-  s.end(2e-3, 0.0, scale);
+  const Vec3 falls{0, 0, -2.0 + any()};
+  s.velocity(block.nodes, falls);
+  s.velocity({s.rigid_body(block.nodes, centre)}, falls);
+  s.contact(s.shell_surface(plate), s.surface(block, 2, false), 0.2, 0.0, 0.001);
+  s.end(3e-3, 0.0, scale);
   return s.model;
 }
 
@@ -110,16 +116,31 @@ TEST(EffectiveMass, ReboundsKeepTheirEnergy) {
   }
 }
 
-// One node of a body meets a face. Two passes count on the facing side's springs as well, which here have nothing to hold, so the
-// effective mass is half of the true one, and the last force is off by a share of h^2 K/m: it vanishes with the square of the step.
-TEST(EffectiveMass, CubeOnItsCorner) {
-  const double coarse = made(cube(0.9), "rigid cube on its corner", 0.9).second;
-  const double finer = made(cube(0.6), "rigid cube on its corner", 0.6).second;
-  const double finest = made(cube(0.3), "rigid cube on its corner", 0.3).second;
-  EXPECT_LT(coarse, 0.1);
-  EXPECT_LT(finer, coarse);
-  EXPECT_LT(finest, 0.1 * coarse);
-  EXPECT_LT(finest, 0.002);
+// Few nodes of a body meet a face, one after the other, each in a few steps: the contact alone holds the step. With the springs of two
+// passes counted twice the median was 8 % on the clamped plate and 2.4 % on the rigid one, at 0.3 of the step 0.2 %.
+TEST(EffectiveMass, CubesOnTheirCorners) {
+  for (const Lower lower : {Lower::clamped, Lower::rigid}) {
+    for (const double scale : {0.9, 0.6, 0.3}) {
+      std::vector<double> all;
+      for (unsigned turn = 1; turn <= 13; ++turn) {
+        Recorder r;
+        const auto report = abut::cycle::run(cube(lower, turn, scale), {}, r);
+        ASSERT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished) << report.outcome.message;
+        Index touched = 0;
+        for (const auto& sample : r.samples) touched = std::max(touched, sample.interfaces[0].in_contact);
+        EXPECT_GT(touched, 0) << turn;
+        all.push_back(r.samples.back().balance.cx / r.samples.back().balance.largest);
+      }
+      std::sort(all.begin(), all.end());
+      std::printf("[found] rigid cubes on their corners, %s plate, scale %.1f: CX %.3f %% to %.3f %%, median %.3f %%\n",
+                  lower == Lower::clamped ? "clamped" : "rigid", scale, 100 * all.front(), 100 * all.back(), 100 * all[all.size() / 2]);
+      EXPECT_LT(std::abs(all[all.size() / 2]), 0.001);
+      // The worst are nodes beside a facet that pull at some of its corners: what the body has of them is not known with its sign.
+      const double worst = scale > 0.6 ? 0.02 : scale > 0.3 ? 0.006 : 0.005;
+      EXPECT_LT(all.back(), worst) << "made";
+      EXPECT_GT(all.front(), -worst) << "lost";
+    }
+  }
 }
 
 }  // namespace

@@ -22,6 +22,20 @@ namespace abut::contact {
   return std::max(0.0, dot(n, host.mobility[static_cast<std::size_t>(host.constrained[i])] * n));
 }
 
+/// Springs that act on the motion of a pair together with its own: what they do to a node counts as the pair's.
+struct Springs {
+  double passes = 1.0;     ///< as strong as the pair's, where no more is known
+  double stiffness = 0.0;  ///< the pair's, beside which a mobility's is seen; 0: one spring alone
+
+  /// w^2 times their number, for a node that the pair moves with weight +-w.
+  /// @param spread  sum of all w of the facet: 1, or more where the node is beside it and some corners are pulled
+  [[nodiscard]] double over(const HostState& host, Index node, double w, double spread) const {
+    const Index entry = host.constrained.empty() || stiffness <= 0.0 ? no_index : host.constrained[static_cast<std::size_t>(node)];
+    const double known = entry == no_index ? 0.0 : host.mobility[static_cast<std::size_t>(entry)].stiffness;
+    return known > 0.0 ? w * std::max(w, known / stiffness) / spread : passes * w * w;
+  }
+};
+
 /// Mass of a node that is free or cannot move at all (0); below zero: neither, its mobility must be asked.
 [[nodiscard]] inline double plain_mass(const HostState& host, Index node) {
   const auto i = static_cast<std::size_t>(node);

@@ -41,7 +41,8 @@ struct NodeState {
   std::uint8_t reckoned = 0;  ///< `made` counts
   std::uint8_t light = 0;  ///< 1: its steps were once long for its stiffness, or it passed over a fold; settled: its last force was tried;
                            ///< passive: it may give no more than it took
-  std::array<std::uint8_t, 6> unused{};
+  std::array<std::uint8_t, 2> unused{};
+  float step_stiffness = 0.0F;  ///< that it gave the host in its last step in contact
   static constexpr std::uint8_t settled = 2, passive = 3;
   double offset = 0.0;   ///< the gap of this node is smaller by this (initial penetration)
   double damping = 0.0;  ///< damping force of the last step

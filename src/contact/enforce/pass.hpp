@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/enforce/effective_mass.hpp"
 #include "contact/enforce/facet_views.hpp"
 #include "contact/enforce/held_kernel.hpp"
 #include "contact/enforce/history.hpp"
@@ -239,8 +240,9 @@ class Pass {
   [[nodiscard]] static Vec3 velocity_over(const HostState& host, const Side& held, const Side& surface, Index i, const SurfacePoint& point);
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
   /// 1/m of a node with its facet along a unit vector; 0: unknown
+  /// @param springs  which act on the same motion; {}: this pair alone
   [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
-                                    const Vec3& along) const;
+                                    const Vec3& along, const Springs& springs) const;
   /// A pair that may give no more than it has taken (account.hpp): it began, or came to a facet or deeper into a strip, where it holds
   /// more by the law than it was given on the way there.
   /// @param moved_in  along the normal in the last step

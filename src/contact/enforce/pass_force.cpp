@@ -27,13 +27,16 @@ Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const
   return k;
 }
 
-double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
-                          const Vec3& along) const {
+double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch, const Vec3& along,
+                          const Springs& springs) const {
   const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
-  double sum = inverse_mass_of(host, held.nodes()[at(i)], along);
+  double spread = 0.0;
+  for (const double w : touch.weight) spread += std::abs(w);
+  double sum = springs.over(host, held.nodes()[at(i)], 1.0, 1.0) * inverse_mass_of(host, held.nodes()[at(i)], along);
   for (std::size_t c = 0; c < 4; ++c) {
     const double w = touch.weight[c];
-    if (w != 0.0) sum += w * w * inverse_mass_of(host, surface.nodes()[at(corner[c])], along);
+    const Index node = surface.nodes()[at(corner[c])];
+    if (w != 0.0) sum += springs.over(host, node, std::abs(w), spread) * inverse_mass_of(host, node, along);
   }
   return sum;
 }
@@ -126,8 +129,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
-  const double pair_inverse_mass =
-      touch.contact || options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch, touch.normal) : 0.0;
+  const double pair_inverse_mass = options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch, touch.normal, {}) : 0.0;
   if (touch.full_gap > 0.0 && -motion.rate * host.dt >= -passed_over * penetration) {
     totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / touch.full_gap);
   }
@@ -215,11 +217,17 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   double factor = 1.0;
   const double moved_in = closing * host.dt;
   // With two passes the facing surface's own springs act on this pair too, as strongly as this one where the meshes face.
-  const double inverse_mass = (two_passes_ ? 2.0 : 1.0) * pair_inverse_mass;
+  // What the host knows of other springs is as old as its mobilities: a cycle.
+  const double as_known = before.held != 0 && before.step_stiffness > 0.0F ? static_cast<double>(before.step_stiffness) : step_stiffness;
+  const Springs springs{two_passes_ ? 2.0 : 1.0, as_known};
+  const double inverse_mass = this->inverse_mass(host, held, surface, i, touch, touch.normal, springs);
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   double stored = touch.pair.potential;
   const Vec3 velocity = motion.rate * touch.normal + motion.tangential_velocity;
-  const double lightness = inverse_mass * touch.pair.stiffness * touch.law.tangent(penetration) * host.dt * host.dt;
+  // On bodies an account costs little, and pairs that leave one after the other let the step grow under those that stay.
+  const double alone = host.mobility.empty() ? 0.0 : springs.passes * this->inverse_mass(host, held, surface, i, touch, touch.normal, {});
+  const double at_most = std::max(inverse_mass, alone);
+  const double lightness = at_most * touch.pair.stiffness * touch.law.tangent(penetration) * host.dt * host.dt;
   // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
   // comes from in front deeper than its motion along the normal.
   const bool over_fold = closest() && rules.switch_correction && grown == 0.0 &&
@@ -266,7 +274,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       // Not more than what is left gives the bodies in the coming step; what it then holds is what it has taken.
       const double size = norm(touch.pair.on_node);
       const Vec3 along = touch.pair.on_node / size;
-      const double mobile = (two_passes_ ? 2.0 : 1.0) * this->inverse_mass(host, held, surface, i, touch, along);
+      const double mobile = this->inverse_mass(host, held, surface, i, touch, along, springs);
       const double rate = along_push / size;
       if (mobile > 0.0 || rate > 0.0)
         factor = std::min(factor, last_force({rate, host.dt, coming, mobile, others, std::max(0.0, -made)}) / size);
@@ -282,6 +290,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   after.stored = stored;
   // Of facets that are equally near the first stands for all.
   after.reckoned = rules.switch_correction && (fresh || before.reckoned != 0) ? 1 : 0;
+  after.step_stiffness = static_cast<float>(step_stiffness);
   after.light = passive ? NodeState::passive : settled ? NodeState::settled : light ? 1 : 0;
   after.made = 0.0;
   if (after.reckoned != 0) {

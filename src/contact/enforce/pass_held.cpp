@@ -201,6 +201,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   after.force = batch.force[k];
   after.push = on_node;
   after.stored = batch.potential[k];
+  after.step_stiffness = static_cast<float>(batch.step_stiffness[k]);
   after.made = batch.made[k];
   after.reckoned = before.reckoned;
   after.light = std::max(before.light, static_cast<std::uint8_t>(batch.light[k] != 0.0 ? 1 : 0));

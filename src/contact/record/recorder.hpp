@@ -15,7 +15,7 @@ namespace abut::contact {
 
 inline constexpr std::uint64_t log_magic = 0x31474F4C54554241ULL;  // "ABUTLOG1" where the least byte comes first
 /// Rises with every change of a record or of what stands in it.
-inline constexpr std::uint64_t log_version = 5;
+inline constexpr std::uint64_t log_version = 6;
 
 enum class LogRecord : std::uint32_t {
   made = 1,  ///< label, recipe (compact)
