@@ -25,6 +25,10 @@ struct Profile {
   /// Stretch that a finite rotation over one step leaves in shells of Ishell 1 and 2: removed, or the reference's correction,
   /// which is twice as large.
   enum class ShellRotation { exact, reference };
+  /// Strain increment of a step (elements of large strain; shells: in their plane): that of the motion at mid-step, turned to the axes at
+  /// its end, to second order; or from the geometry at its end, without what a rotation in the step adds but where the reference takes it
+  /// out.
+  enum class StrainIncrement { midpoint, reference };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
   /// Rigid bodies: exact rotation of secondary nodes, gyroscopic moment at mid-step (keeps energy and angular momentum),
@@ -52,6 +56,7 @@ struct Profile {
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
   SmallStrainEnergy small_strain_energy = SmallStrainEnergy::work;
   ShellRotation shell_rotation = ShellRotation::exact;
+  StrainIncrement strain_increment = StrainIncrement::midpoint;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
   TetraSpin tetra_spin = TetraSpin::exact;
@@ -71,6 +76,7 @@ struct Profile {
     p.hourglass_energy = HourglassEnergy::end_of_step;
     p.small_strain_energy = SmallStrainEnergy::mean_volume;
     p.shell_rotation = ShellRotation::reference;
+    p.strain_increment = StrainIncrement::reference;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
     p.tetra_spin = TetraSpin::reference;

@@ -3,6 +3,7 @@
 // Equation contract (numerics.md 4.1 to 4.5, 4.8, 2.1.5; [Flanagan Belytschko 1981], [Hallquist 1983])
 //   Rows r_k = sum_I (xi, eta, zeta)_I x_I (8 J_0), det = r_xi . (r_eta x r_zeta), V = det/64 (the centre-Jacobian volume; the program and
 //   hence we do not use the exact trilinear one), P_I = xi_I a + eta_I b + zeta_I c with (a, b, c) = (r_eta x r_zeta, ...)/det.
+//   D = at_midpoint() of L (the program, Profile::StrainIncrement: Iframe 2 sym L - h/2 L^T L, Iframe 1 sym L).
 //   L = v_xi a^T + v_eta b^T + v_zeta c^T with the same rows of v. f_I = V (sigma - q 1) P_I + sum_alpha gamma_I F_alpha.
 //   Gamma: products xi eta, eta zeta, zeta xi, -xi eta zeta. gamma = Gamma - P.X, X = sum_J Gamma_J x_J, for modes 1-3 of Isolid 1 (the
 //   mode 4 as it is); Isolid 2: gamma = Gamma. Rates qdot = gamma . v = Gamma . v - L X. F = qdot (c_l + c_q |qdot|), c_l =
@@ -191,11 +192,15 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
   l.z = w.xi.z * a + w.eta.z * b + w.zeta.z * d;
 
   PointInput<R> in;
-  in.d = symmetric_part(l);
   in.volume = volume;
   in.inverse_volume = inverse_volume;
+  if (c.midpoint_strain) {
+    in.d = at_midpoint(l, dt);
+  } else {
+    in.d = symmetric_part(l);
+    if constexpr (Corotational) in.d = in.d - second_order(l, R(0.5 * dt));
+  }
   if constexpr (Corotational) {
-    in.d = in.d - second_order(l, R(0.5 * dt));
     in.spin = {zero, zero, zero};
   } else {
     const R h(0.5 * dt);

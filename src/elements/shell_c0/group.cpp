@@ -42,6 +42,7 @@ class ShellC0Group final : public ShellGroup {
                                     " does not exist here (Ish3n 1 or 2)");
       }
       parameters_.large_rotation = p.ish3n == 2;
+      parameters_.midpoint = in.profile.strain_increment == Profile::StrainIncrement::midpoint;
       parameters_.step_bound = in.profile.element_step == Profile::ElementStep::bound;
       parameters_.nodal_step = in.model->controls.nodal_step;
       damping_ = std::sqrt(1.0 + p.dm * p.dm) - p.dm;

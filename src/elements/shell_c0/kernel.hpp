@@ -3,7 +3,8 @@
 // Equation contract (numerics.md 3.10; Belytschko, Stolarski, Carpenter, IJNME 20 (1984) 787; Kennedy, Belytschko, Lin (1986)):
 //   frame e1 along side 1-2, e3 normal; P_x1 = -y3/2, P_y1 = (x3 - x2)/2, P_x2 = y3/2, P_y2 = -x3/2, P_x3 = 0, P_y3 = x2/2
 //   rates as for the quad with these P; transverse shear with the rows below, moments with their transposes
-//   second-order corrections a, b (out-of-plane rotation) and a', b' (in-plane, Ish3n 2), from absolute velocities in the frame
+//   second-order corrections a, b (out-of-plane rotation), from absolute velocities in the frame; in the plane membrane_at_midpoint(), or
+//   the reference's a', b' (Ish3n 2)
 // Step, reference (numerics.md 2.1.3, 2.2): L = 2A/longest side. Bound: the form of shell_q4/step_length.hpp with node masses mu_I:
 // p = sum_I P_I P_I^T/mu_I is a 2 by 2 tensor, k_m = t/(2A) (A11 tr p + sqrt(A11^2 (tr^2 - 4 det) + 4 A12^2 det)) is exact,
 // k_b = k_m t^2/(12 r^2), k_s = kappa_s G t A times the largest eigenvalue of the 2 by 2 matrix B_s M^-1 B_s^T (exact). Bending and shear
@@ -158,7 +159,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   const T a = per_p * (vz1 - vz2), b = per_x * ((g.py1 * vz1 + g.py2 * vz2) * inverse_p - vz3);
   T hx1 = vx1 - a * vz1, hx2 = vx2 - a * vz2, hx3 = vx3 - a * vz3;
   T hy1 = vy1 - b * vz1, hy2 = vy2 - b * vz2, hy3 = vy3 - b * vz3;
-  if (q.large_rotation) {
+  if (q.large_rotation && !q.midpoint) {
     const T a2 = per_p * (vy1 - vy2), b2 = per_x * ((g.py1 * vx1 + g.py2 * vx2) * inverse_p - vx3);
     hx1 -= a2 * vy1;
     hx2 -= a2 * vy2;
@@ -174,9 +175,14 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   const T yz = g.py1 * (vz1 - vz3) + g.py2 * (vz2 - vz3) + (r.yz_x1 * wx1 + r.yz_x2 * wx2 + r.yz_x3 * wx3) +
                (r.yz_y1 * wy1 + r.yz_y2 * wy2 + r.yz_y3 * wy3);
   ShellRates<T> rate;
-  rate.exx = select(alive, g.px1 * (hx1 - hx2) * inverse_area, zero);
-  rate.eyy = select(alive, (g.py1 * (hy1 - hy3) + g.py2 * (hy2 - hy3)) * inverse_area, zero);
-  rate.gxy = select(alive, (g.py1 * (hx1 - hx3) + g.py2 * (hx2 - hx3) + g.px1 * (hy1 - hy2)) * inverse_area, zero);
+  rate.exx = g.px1 * (hx1 - hx2) * inverse_area;
+  rate.eyy = (g.py1 * (hy1 - hy3) + g.py2 * (hy2 - hy3)) * inverse_area;
+  const T gxy = (g.py1 * (hx1 - hx3) + g.py2 * (hx2 - hx3)) * inverse_area, gyx = g.px1 * (hy1 - hy2) * inverse_area;
+  rate.gxy = gxy + gyx;
+  if (q.midpoint) membrane_at_midpoint(rate, rate.exx, gxy, gyx, rate.eyy, T(h), 0.5, true);
+  rate.exx = select(alive, rate.exx, zero);
+  rate.eyy = select(alive, rate.eyy, zero);
+  rate.gxy = select(alive, rate.gxy, zero);
   rate.gyz = select(alive, yz * inverse_area, zero);
   rate.gzx = select(alive, zx * inverse_area, zero);
   rate.kxx = select(alive, g.px1 * (wy1 - wy2) * inverse_area, zero);

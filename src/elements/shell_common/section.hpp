@@ -78,6 +78,21 @@ struct ShellRates {
   T exx, eyy, gxy, gyz, gzx, kxx, kyy, kxy;
 };
 
+/// Membrane strains of the motion at mid-step as the turning frame saw them (docs/theory/elements.md): E + h E^2 + h/2 (O E - E O),
+/// E = D - h/2 L^T L with the velocity gradient L in the plane, O the frame's spin beyond that of L.
+/// @param dxx to dyy  rows of L. @param turn  O_yx, over 2 E_xy. @param stretches  false: the turning alone, for small strains
+template <class T>
+ABUT_INLINE void membrane_at_midpoint(ShellRates<T>& rate, T dxx, T dxy, T dyx, T dyy, T h, double turn, bool stretches) {
+  const T half = T(0.5) * h;
+  const T x = dxx - half * (dxx * dxx + dyx * dyx), y = dyy - half * (dxy * dxy + dyy * dyy);
+  const T shear = (dxy + dyx) - h * (dxx * dxy + dyx * dyy);
+  const T quarter = T(stretches ? 0.25 : 0.125) * h, four = T(4.0);
+  const T both = quarter * (shear * shear), turned = T(turn) * half * (shear * shear);
+  rate.exx = x + (quarter * four * (x * x) + both - turned);
+  rate.eyy = y + (quarter * four * (y * y) + both + turned);
+  rate.gxy = shear + shear * (quarter * four * (x + y) + T(turn) * h * (x - y));
+}
+
 template <class T>
 struct ShellForces {
   T fxx, fyy, fxy, fyz, fzx, mxx, myy, mxy;

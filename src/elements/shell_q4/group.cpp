@@ -49,6 +49,7 @@ Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p
   q.nodal_step = in.model->controls.nodal_step;
   q.trapezoidal = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;
   q.homogeneous = in.profile.rotational_hourglass == Profile::RotationalHourglass::homogeneous;
+  q.midpoint = in.profile.strain_increment == Profile::StrainIncrement::midpoint;
   q.rotation_correction = in.profile.shell_rotation == Profile::ShellRotation::exact ? 0.125 : 0.25;
 
   q.at_hourglass = s.variables;

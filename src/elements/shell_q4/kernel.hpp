@@ -8,6 +8,7 @@
 // Second-order corrections (numerics.md 3.3) remove the stretch that a finite rotation over one step would leave: theta^2/2 for
 // velocities along the chords in the frame at the end. Ishell 1, 2: delta_x = c h (d13 v_z - d24 v_z)^2/(P_y1 + P_y2), likewise y; for a
 // rectangle turning about e2 that changes the strain by -4 c theta^2, so c = 1/8. The reference has c = 1/4 (Profile::ShellRotation).
+// In the plane: membrane_at_midpoint() (Profile::StrainIncrement; the reference has nothing there).
 // Elements that are off or rigid see zero rates and write zeros.
 #pragma once
 
@@ -166,9 +167,14 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
 
   // velocity strains and curvature rates
   ShellRates<T> rate;
-  rate.exx = select(alive, (g.px1 * vx13 + g.px2 * vx24) * inverse_area, zero);
-  rate.eyy = select(alive, (g.py1 * vy13 + g.py2 * vy24) * inverse_area, zero);
-  rate.gxy = select(alive, (g.py1 * vx13 + g.py2 * vx24 + g.px1 * vy13 + g.px2 * vy24) * inverse_area, zero);
+  rate.exx = (g.px1 * vx13 + g.px2 * vx24) * inverse_area;
+  rate.eyy = (g.py1 * vy13 + g.py2 * vy24) * inverse_area;
+  const T gxy = (g.py1 * vx13 + g.py2 * vx24) * inverse_area, gyx = (g.px1 * vy13 + g.px2 * vy24) * inverse_area;
+  rate.gxy = gxy + gyx;
+  if (q.midpoint) membrane_at_midpoint(rate, rate.exx, gxy, gyx, rate.eyy, T(h), 0.0, !q.may_freeze);
+  rate.exx = select(alive, rate.exx, zero);
+  rate.eyy = select(alive, rate.eyy, zero);
+  rate.gxy = select(alive, rate.gxy, zero);
   rate.gyz = select(alive, gy - T(0.25) * wxs, zero);
   rate.gzx = select(alive, gx + T(0.25) * wys, zero);
   rate.kxx = select(alive, (g.px1 * wy13 + g.px2 * wy24) * inverse_area, zero);

@@ -13,6 +13,7 @@ struct Q4Parameters {
   bool nodal_step = false;             ///< /DT/NODA: which of the reference's nodal stiffnesses
   bool trapezoidal = true;             ///< Profile::HourglassEnergy
   bool homogeneous = true;             ///< Profile::RotationalHourglass
+  bool midpoint = true;                ///< Profile::StrainIncrement
   double rotation_correction = 0.125;  ///< factor of the second-order terms of Ishell 1 and 2: 1/8 exact, 1/4 reference
 
   int at_hourglass = -1;      ///< elastic Q_x Q_y Q_z

@@ -57,7 +57,7 @@ ABUT_INLINE Sym<R> symmetric_part(const Matrix<R>& l) {
   const R half(0.5);
   return {l.x.x, l.y.y, l.z.z, half * (l.x.y + l.y.x), half * (l.y.z + l.z.y), half * (l.z.x + l.x.z)};
 }
-/// 1/2 h L^T L, the second-order term of 4.3.3.
+/// 1/2 h L^T L (4.3.3).
 template <class R>
 ABUT_INLINE Sym<R> second_order(const Matrix<R>& l, R half_h) {
   return {half_h * (l.x.x * l.x.x + l.y.x * l.y.x + l.z.x * l.z.x), half_h * (l.x.y * l.x.y + l.y.y * l.y.y + l.z.y * l.z.y),
@@ -71,6 +71,20 @@ ABUT_INLINE Sym<R> operator-(const Sym<R>& a, const Sym<R>& b) {
 template <class R>
 ABUT_INLINE Sym<R> operator+(const Sym<R>& a, const Sym<R>& b) {
   return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.zx + b.zx};
+}
+
+/// Strain increment at mid-step in the axes at its end, over h [Hughes Winget 1980]: E + h E^2, E = sym L - 1/2 h L^T L, which is zero in a
+/// finite rotation.
+template <class R>
+ABUT_INLINE Sym<R> at_midpoint(const Matrix<R>& l, double dt) {
+  const Sym<R> e = symmetric_part(l) - second_order(l, R(0.5 * dt));
+  const R h(dt), xy = e.xy * e.xy, yz = e.yz * e.yz, zx = e.zx * e.zx;
+  return {e.xx + h * (e.xx * e.xx + xy + zx),
+          e.yy + h * (e.yy * e.yy + xy + yz),
+          e.zz + h * (e.zz * e.zz + yz + zx),
+          e.xy + h * ((e.xx + e.yy) * e.xy + e.zx * e.yz),
+          e.yz + h * ((e.yy + e.zz) * e.yz + e.xy * e.zx),
+          e.zx + h * ((e.zz + e.xx) * e.zx + e.yz * e.xy)};
 }
 
 /// s + W s - s W with W_yx = w.z, W_zy = w.x, W_xz = w.y (4.3.1).

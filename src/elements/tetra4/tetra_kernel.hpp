@@ -2,8 +2,8 @@
 //
 // Equation contract (numerics.md 4.9, 2.1.7; constant-strain tetrahedron of any textbook)
 //   6V = (x2 - x1).[(x3 - x1) x (x4 - x1)], grad N_2 = (x3 - x1) x (x4 - x1)/(6V), ..., grad N_1 = -(grad N_2 + grad N_3 + grad N_4).
-//   L = sum_I v_I grad N_I^T, D = sym L - h/2 L^T L (small strain: sym L), spin increment W = h skew L, f_I = V (sigma - q 1) grad N_I.
-//   reference step: dx = 1/max |grad N_I|.
+//   L = sum_I v_I grad N_I^T, D = at_midpoint() (small strain: sym L; the program: sym L - h/2 L^T L), spin increment W = h skew L, f_I = V
+//   (sigma - q 1) grad N_I. reference step: dx = 1/max |grad N_I|.
 // Bound step: solid_kernel.hpp with G = sum_I grad N_I grad N_I^T / (m_I/m_e), which covers unequal nodal masses.
 // The reference also subtracts h/2 (L^T L)_ij from the three spin components, a symmetric term that is no rotation: choice
 // Profile::TetraSpin.
@@ -56,15 +56,19 @@ ABUT_INLINE void tetra_lanes(const SolidTask& task, std::int32_t block, int lane
   PointInput<R> in;
   in.volume = simd::select(sound, det * R(1.0 / 6.0), state.get(f_volume));
   in.inverse_volume = simd::select(sound, R(6.0) * inv, zero);
-  in.d = symmetric_part(l);
   const R h(0.5 * dt);
   in.spin = {h * (l.z.y - l.y.z), h * (l.x.z - l.z.x), h * (l.y.x - l.x.y)};
-  if (!c.small_strain) {
-    const Sym<R> quadratic = second_order(l, h);
-    in.d = in.d - quadratic;
-    if (c.literal_spin) {
-      const R step(dt);
-      in.spin = in.spin - Vec<R>{step * quadratic.yz, step * quadratic.zx, step * quadratic.xy};
+  if (c.midpoint_strain) {
+    in.d = at_midpoint(l, dt);
+  } else {
+    in.d = symmetric_part(l);
+    if (!c.small_strain) {
+      const Sym<R> quadratic = second_order(l, h);
+      in.d = in.d - quadratic;
+      if (c.literal_spin) {
+        const R step(dt);
+        in.spin = in.spin - Vec<R>{step * quadratic.yz, step * quadratic.zx, step * quadratic.xy};
+      }
     }
   }
   update_length(c, state, in.volume);

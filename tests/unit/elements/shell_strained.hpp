@@ -25,7 +25,10 @@ struct Strained {
     if (!quad) x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     s.single(x);
   }
-  void start(Profile profile = Profile::standard()) { r = std::make_unique<Runner>(s, quad, profile); }
+  void start(Profile profile = Profile::standard()) {
+    profile.strain_increment = Profile::StrainIncrement::reference;  // in steps of constant geometry the strain is h D
+    r = std::make_unique<Runner>(s, quad, profile);
+  }
 
   /// One step of constant geometry: rates xx, yy, xy and curvature rates.
   GroupResult step(double h, double xx, double yy, double xy = 0.0, double kxx = 0.0, double kyy = 0.0) {

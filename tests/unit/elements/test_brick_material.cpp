@@ -73,6 +73,7 @@ TEST(BrickViscosity, ClosedForm) {
 // l = V^(1/3) follows the volume to rounding over four orders of magnitude of compression rate.
 TEST(BrickViscosity, LengthFollowsVolume) {
   SolidSetup s;
+  s.profile.strain_increment = Profile::StrainIncrement::reference;  // tr D of the shape at the end
   s.property.qa = 0.0;
   s.property.qb = 1.0;
   SolidBody body(unit_cube(), one, s);
@@ -121,6 +122,7 @@ TEST(BrickEnergy, ViscosityIsInternalEnergy) {
 TEST(BrickEnergy, Law2UsesTotalStress) {
   SolidSetup s1 = without_viscosity(), s2 = s1;
   s2.law = plastic(1e3);
+  s2.profile.strain_increment = Profile::StrainIncrement::reference;  // tr D of the shape at the end
   const double e = 0.1;
   SolidBody b1(unit_cube(), one, s1), b2(unit_cube(), one, s2);
   for (SolidBody* b : {&b1, &b2})
