@@ -36,9 +36,9 @@ using Executor = std::function<void(std::size_t count, const std::function<void(
 struct SurfaceState {
   std::span<const double> stiffness = {};     ///< own stiffness per facet: E t (shell) or B A^2/V (brick face) (T16..T18)
   std::span<const double> thickness = {};     ///< shell thickness per facet, 0: of a solid; empty: none
-  std::span<const std::uint8_t> active = {};  ///< 0: eroded facet; empty: all active
+  std::span<const std::uint8_t> active = {};  ///< 0: eroded facet; never given: all active
   /// #S in the order of Surface::nodes(): 0 is let go, others stay held with the stiffness of all their facets, eroded ones
-  /// too. Empty: nodes are held by what is left of their facets.
+  /// too. Never given: nodes are held by what is left of their facets.
   std::span<const std::uint8_t> node_active = {};
 };
 
@@ -47,7 +47,8 @@ struct HostState {
   std::span<const Vec3> x;  ///< positions at t^n
   std::span<const Vec3> v;  ///< velocities at n - 1/2
   /// Nodal masses, 0 for a node that cannot move (clamped, imposed motion): first and last contact forces are predicted with them
-  /// (and TYPE7 damps with them). Empty: speeds count as constant over a step, which costs accuracy in CX only.
+  /// (and TYPE7 damps with them; a node of mass 0 with the mass of the pair). Empty: speeds count as constant over a step, which costs
+  /// accuracy in CX only; TYPE7 does not damp, and refuses viscous friction.
   std::span<const double> mass;
   double time = 0.0;  ///< t^n
   double dt = 0.0;    ///< h_-, the step that ended at t^n (0 in the first cycle)
@@ -89,6 +90,7 @@ class Interface {
   /// @param side 0 first, 1 second. Of nodes_to_surface and both_sides 1 is the surface and 0 the held nodes: stiffness and active
   ///        are then #nodes (an inactive node is let go), and so is thickness (automatic_gap; of both_sides with node_gap and
   ///        facet_gap: they become half of it).
+  /// Of nodes_to_surface that was made without stiffness of nodes the facets' stiffness counts alone.
   /// Spans that are empty leave what was set before. May be called at any time.
   /// @throws std::invalid_argument on a side that is neither 0 nor 1, a wrong length, a negative or non-finite stiffness or thickness
   void set_surface(int side, const SurfaceState& state);
@@ -101,7 +103,7 @@ class Interface {
   /// @return moves of host nodes, each node once; empty when nothing penetrates. The interface is as before.
   /// @throws std::invalid_argument when x is too short
   [[nodiscard]] std::vector<Projection> projections(std::span<const Vec3> x, bool move_surface) const;
-  /// Loops over nodes run through `executor` from now on; without one they run in the caller.
+  /// Loops over nodes run through `executor` from now on; without one, and those of both_sides, they run in the caller.
   void set_executor(Executor executor);
 
   /// contact::inspect() of what this interface knows of itself: its sides, the stiffness that set_surface() gave them, gap, stiffness
@@ -116,10 +118,12 @@ class Interface {
                                              const std::array<std::span<const std::int8_t>, 2>& outward = {},
                                              const InspectionLimits& limits = {}) const;
 
-  /// Once per step, before evaluate, with the same positions.
+  /// Once per step, before evaluate, with the same positions. Until commit() a step may be searched and evaluated again; of both_sides it
+  /// may not.
   /// @pre positions and velocities are finite, masses are >= 0
   /// @throws std::invalid_argument when x, v or a mass that is not empty is too short for the interface's nodes, `constrained` names an
-  ///         entry that does not exist, the time is not finite, or a step is negative or not finite
+  ///         entry that does not exist, the time is not finite, or a step is negative or not finite; std::logic_error for a both_sides
+  ///         interface whose last evaluate was not committed
   void search(const HostState& host);
   /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added

@@ -28,9 +28,25 @@ double warp(const Side& surface) {
 }
 
 BothSidesOptions checked(BothSidesOptions o) {
+  const auto positive = [](double value, const char* what) {
+    if (!(value >= 0.0) || !std::isfinite(value)) {
+      throw std::invalid_argument("contact: " + std::string(what) + " must be >= 0 and finite, not " + std::to_string(value));
+    }
+  };
   if (!(o.gap > 0.0) || !std::isfinite(o.gap)) throw std::invalid_argument("a two-sided interface needs a gap > 0 that is finite");
-  if (!(o.friction >= 0.0)) throw std::invalid_argument("friction must be >= 0");
-  if (!(o.damping >= 0.0) || !(o.friction_viscosity >= 0.0)) throw std::invalid_argument("damping shares must be >= 0");
+  positive(o.friction, "friction");
+  for (const double c : o.friction_law.c) {
+    if (!std::isfinite(c)) throw std::invalid_argument("contact: coefficients of the friction law must be finite");
+  }
+  positive(o.damping, "damping");
+  positive(o.friction_viscosity, "friction_viscosity");
+  positive(o.filter.frequency, "filter frequency");
+  positive(o.step_minimum, "step_minimum");
+  positive(o.largest_penetration, "largest_penetration");
+  positive(o.stiffness_min, "stiffness_min");
+  if (!(o.stiffness_max >= o.stiffness_min)) throw std::invalid_argument("contact: stiffness_max must be at least stiffness_min");
+  if (!(o.gap_max > 0.0)) throw std::invalid_argument("contact: gap_max must be > 0");
+  if (std::isnan(o.birth) || std::isnan(o.death)) throw std::invalid_argument("contact: birth and death must be times");
   if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) throw std::invalid_argument("filter share must be > 0 and at most 1");
   if (o.node_gap.empty() != o.facet_gap.empty()) throw std::invalid_argument("node_gap and facet_gap: both or none");
   if (o.node_size.empty() != o.facet_size.empty()) throw std::invalid_argument("node_size and facet_size: both or none");
@@ -45,6 +61,7 @@ BothSidesOptions checked(BothSidesOptions o) {
 
 BothSides::BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions options)
     : options_(checked(std::move(options))), held_(nodes, std::vector<double>(nodes.size(), 0.0)), surface_(std::move(surface), true) {
+  check_held_nodes(held_.nodes());
   if (!options_.node_gap.empty() && options_.node_gap.size() != nodes.size())
     throw std::invalid_argument("node_gap: one value per held node");
   if (!options_.facet_gap.empty() && static_cast<Index>(options_.facet_gap.size()) != surface_.facet_count()) {
@@ -164,6 +181,7 @@ std::vector<Projection> BothSides::projections(std::span<const Vec3> x, bool mov
 }
 
 void BothSides::search(const HostState& host) {
+  if (evaluated_) throw std::logic_error("contact: a two-sided interface cannot repeat a step: commit() it before the next search()");
   held_.gather(host.x);
   surface_.gather(host.x);
   if (started_ && !acts(host)) return;
@@ -209,6 +227,10 @@ void BothSides::gather_pressed() {
 }
 
 StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
+  if (host.mass.empty() && options_.rubs() && options_.friction_form == BothSidesOptions::Friction::viscous) {
+    throw std::invalid_argument("contact: viscous friction needs masses");
+  }
+  evaluated_ = true;
   StepResult result;
   in_contact_.clear();
   slips_.assign(at(held_.node_count()), 0);
@@ -293,11 +315,10 @@ void BothSides::add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangent
   }
 }
 
-void BothSides::add_nodal_area(std::span<const Vec3>, std::span<double> area) const {
-  for (Index s = 0; s < surface_.node_count(); ++s) {
-    double& a = area[at(surface_.nodes()[at(s)])];
-    a = std::max(a, surface_.tributary_area(s));
-  }
+void BothSides::add_nodal_area(std::span<const Vec3> x, std::span<double> area) const {
+  Side now = surface_;
+  now.gather(x);
+  for (Index s = 0; s < now.node_count(); ++s) area[at(now.nodes()[at(s)])] += now.tributary_area(s);
 }
 
 void BothSides::add_nodal_contact(std::span<NodalContact> nodes) const {
@@ -341,6 +362,7 @@ void BothSides::save(HistoryWriter& out) const {
 
 void BothSides::load(HistoryReader& in) {
   stale_ = true;
+  evaluated_ = false;
   if (in.next<std::uint64_t>() != layout) in.refuse("was written by a version whose two-sided interfaces remember something else");
   in.get_any(pairs_);
   in.get_all(old_force_);

@@ -22,7 +22,7 @@ class BothSides final : public InterfaceModel {
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
   void clear(std::span<Vec3> force, std::span<double> stiffness) const override;
-  void commit(double) override {}
+  void commit(double) override { evaluated_ = false; }
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
   void add_nodal_contact(std::span<NodalContact> nodes) const override;
@@ -116,6 +116,7 @@ class BothSides final : public InterfaceModel {
   std::vector<Index> held_own_, surface_own_;                  // side-local -> own
   std::vector<Pair> pairs_, previous_;                         // by node, then facet
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
+  bool evaluated_ = false;                                     // and not committed: evaluate() moves the pairs
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
   std::vector<std::uint8_t> slips_;                            // #held: some friction of the node is at its limit (output only, no history)
   std::vector<Mobility> pressed_;                              // #own: sum of k n n^T over the pairs that act; a corner's k is H k

@@ -131,7 +131,7 @@ Vec3 BothSides::friction_of(const HostState& host, const Pair& old, Pair& pair, 
                             double pressing, double critical, Sums& sums, bool& slips) const {
   const Vec3 vt = v - vn * normal;
   const double speed = norm(vt);
-  const double pressure = std::abs(pressing) / surface_.facet_area(pair.facet);
+  const double pressure = surface_.pressure(pair.facet, std::abs(pressing));
   const double limit = friction_coefficient(options_.friction_law, options_.friction, pressure, speed) * std::abs(pressing);
   const double a = options_.filter.weight(host.dt_bar_old);
   if (options_.friction_form == BothSidesOptions::Friction::viscous) {
@@ -197,7 +197,9 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
     }
   }
 
-  const double mass = mass_of(host, self);
+  // Dampers of a node that cannot move are those of what it meets.
+  const double own_mass = mass_of(host, self);
+  const double mass = own_mass > 0.0 || m.inverse_mass <= 0.0 ? own_mass : 1.0 / m.inverse_mass;
   const BothSidesForce law = both_sides_force(0.5 * k, gap, p, mass, vn, options_.damping);
   const Spring elastic = spring(host, old, pair, {0.5 * k, gap, p, law}, m, result);
   pair.damping = -law.damping * vn;

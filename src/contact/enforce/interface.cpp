@@ -84,6 +84,16 @@ struct Interface::Made {
   }
 };
 
+namespace {
+
+/// A host that leaves the mean of its last two steps 0 says that its step is constant.
+HostState with_steps(HostState host) {
+  if (host.dt_bar_old == 0.0) host.dt_bar_old = host.dt;
+  return host;
+}
+
+}  // namespace
+
 Interface::Interface(Made made) : made_(std::make_unique<Made>(std::move(made))) {
   Recipe& recipe = made_->recipe;
   recipe.collect();
@@ -143,8 +153,13 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
   made_->check(host.x.size(), "x");
   made_->check(host.v.size(), "v", true);
   made_->check(host.mass.size(), "mass", true);
-  const Recipe recipe = made_->whole_recipe();
+  Recipe recipe = made_->whole_recipe();
   const std::array<SurfaceValues, 2> surfaces{made_->values(0), made_->values(1)};
+  const auto half_of = [](const std::vector<double>& thickness, std::vector<double>& gap) {
+    for (std::size_t k = 0; k < gap.size() && k < thickness.size(); ++k) gap[k] = 0.5 * thickness[k];
+  };
+  half_of(surfaces[0].thickness, recipe.both.node_gap);
+  half_of(surfaces[1].thickness, recipe.both.facet_gap);
   InspectionInput input;
   for (std::size_t k = 0; k < 2; ++k) {
     const std::size_t facets = recipe.side[k].facets.size();
@@ -178,7 +193,7 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
 void Interface::search(const HostState& host) {
   made_->check(host);
   if (made_->recorder) made_->recorder->search(host);
-  made_->model->search(host);
+  made_->model->search(with_steps(host));
   made_->stage = Made::Stage::searched;
 }
 
@@ -188,7 +203,7 @@ StepResult Interface::evaluate(const HostState& host, std::span<Vec3> force, std
   made_->check(force.size(), "force");
   made_->check(stiffness.size(), "stiffness");
   if (made_->recorder) made_->recorder->evaluate(host, force, stiffness);
-  const StepResult result = made_->model->evaluate(host, force, stiffness);
+  const StepResult result = made_->model->evaluate(with_steps(host), force, stiffness);
   if (made_->recorder) made_->recorder->result(result, force, stiffness);
   made_->stage = Made::Stage::evaluated;
   return result;

@@ -16,12 +16,17 @@ void check(const Options& o) {
     throw std::invalid_argument(std::string("contact: ") + what + ", not " + std::to_string(value));
   };
   if (!(o.stiffness_scale > 0.0) || !std::isfinite(o.stiffness_scale)) refuse("stiffness_scale must be > 0", o.stiffness_scale);
-  if (!(o.friction >= 0.0)) refuse("friction must be >= 0", o.friction);
-  if (!(o.tangential_ratio > 0.0)) refuse("tangential_ratio must be > 0", o.tangential_ratio);
+  if (!(o.friction >= 0.0) || !std::isfinite(o.friction)) refuse("friction must be >= 0 and finite", o.friction);
+  for (const double c : o.friction_law.c) {
+    if (!std::isfinite(c)) refuse("coefficients of the friction law must be finite", c);
+  }
+  // What is handed to the step is the normal stiffness.
+  if (!(o.tangential_ratio > 0.0 && o.tangential_ratio <= 1.0)) refuse("tangential_ratio must be > 0 and at most 1", o.tangential_ratio);
   if (!(o.gap >= 0.0) || !std::isfinite(o.gap)) refuse("gap must be >= 0", o.gap);
   if (!(o.damping >= 0.0 && o.damping <= 1.0)) refuse("damping must be 0 to 1 of critical", o.damping);
   if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) refuse("filter share must be > 0 and at most 1", o.filter.share);
-  if (!(o.filter.frequency >= 0.0)) refuse("filter frequency must be >= 0", o.filter.frequency);
+  if (!(o.filter.frequency >= 0.0) || !std::isfinite(o.filter.frequency)) refuse("filter frequency must be >= 0", o.filter.frequency);
+  if (std::isnan(o.birth) || std::isnan(o.death)) refuse("birth and death must be times", std::isnan(o.birth) ? o.birth : o.death);
   if (!(o.shear_limit > 0.0)) refuse("shear_limit must be > 0", o.shear_limit);
   if (!(o.start_duration >= 0.0) || !std::isfinite(o.start_duration)) refuse("start_duration must be >= 0", o.start_duration);
   if (o.start_duration > 0.0 && (o.initial == Initial::project || o.initial == Initial::ignore)) {
@@ -74,11 +79,7 @@ OneSided::OneSided(std::vector<Index> nodes, std::vector<double> node_stiffness,
                                 " nodes");
   }
   check_finite(node_stiffness, "node_stiffness");
-  std::vector<Index> sorted = nodes;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-    throw std::invalid_argument("contact: node " + std::to_string(*std::adjacent_find(sorted.begin(), sorted.end())) + " is held twice");
-  }
+  check_held_nodes(nodes);
   if (node_stiffness.empty()) {
     options_.rules.one_pass_half_stiffness = true;
     node_stiffness.assign(nodes.size(), 0.0);

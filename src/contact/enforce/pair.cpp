@@ -37,6 +37,17 @@ Wider wider_at(double x) {
   return {border_widening, 0.0};
 }
 
+/// Distance across the facet from a border that a node is near to the other side; of triangles the least height.
+/// @param s, t  the taper changes along the first, the second direction
+double across(bool triangle, int directions, const std::array<Vec3, 2>& tangent, bool s, bool t) {
+  const double first = norm(tangent[0]), second = norm(tangent[1]);
+  if (directions == 1) return triangle ? first : 2.0 * first;
+  const double area = norm(cross(tangent[0], tangent[1]));
+  if (triangle) return area / std::max({first, second, norm(tangent[0] - tangent[1])});
+  const double along = s == t ? std::max(first, second) : s ? second : first;
+  return along > 0.0 ? 2.0 * area / along : 0.0;
+}
+
 }  // namespace
 
 PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, Depth own, double scale,
@@ -124,7 +135,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
     if (phi > 0.0) result.extra_tangent = norm(sideways) * law.force(p) / phi;
     if (t.value < 1.0) {
       constexpr double fall = (1.0 - border_flat) * border_strip;
-      const double width = fall * std::sqrt(patch.triangle ? a11 : 4.0 * a11);
+      const double width = fall * across(patch.triangle, free.count, tangent, t.ds != 0.0, t.dt != 0.0);
       if (width > 0.0) result.extra_tangent += pair * 8.0 * phi / (width * width);
       if (wider.value > 0.0) {
         result.extra_tangent +=

@@ -80,13 +80,15 @@ double Pass::strip_ahead(const HostState& host, const Side& held, const Side& su
   if (penetration <= 0.0 || -distance > depth_[at(touch.facet)]) return 0.0;
   const std::size_t corners = patch.triangle ? 3 : 4;
   const std::array<Index, 4> node = surface.surface().facet(touch.facet).node;
-  double side = 1e300, slowest = 1e300, fastest = -1e300;
+  double longest = 0.0, slowest = 1e300, fastest = -1e300;
   for (std::size_t k = 0; k < corners; ++k) {
-    side = std::min(side, norm(patch.x[(k + 1) % corners] - patch.x[k]));
+    longest = std::max(longest, norm(patch.x[(k + 1) % corners] - patch.x[k]));
     const double rises = dot(host.v[at(node[k])], n);
     slowest = std::min(slowest, rises);
     fastest = std::max(fastest, rises);
   }
+  if (longest <= 0.0) return 0.0;
+  const double side = (patch.triangle ? 2.0 : 1.0) * surface.facet_area(touch.facet) / longest;  // the way across
   if (side <= 0.0) return 0.0;
   // The node's foot moves along the facet by its own motion and by the facet's turning.
   const Vec3 v = motion.rate * touch.normal + motion.tangential_velocity;
@@ -112,7 +114,9 @@ bool Pass::keeps_its_account(const Touch& touch, const NodeState& before, double
   if (made <= unpaid * touch.pair.potential) return false;
   if (before.held == 0) return moved_in < touch.penetration;  // else its first force sees to it
   const bool in_strip = touch.pair.stiffness < touch.pair.whole;
-  return in_strip || (dot(before.normal, touch.normal) < turns && made - before.made > at_once * touch.pair.potential);
+  // A last force left it nearly nothing: what the law holds where it turns round is not its own.
+  return in_strip || before.light == NodeState::settled ||
+         (dot(before.normal, touch.normal) < turns && made - before.made > at_once * touch.pair.potential);
 }
 
 void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
@@ -147,7 +151,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
       double tangent = touch.pair.stiffness * touch.law.tangent(reached) + touch.pair.extra_tangent;
       if (options_.rubs()) {
-        const double pressure = touch.pair.magnitude / surface.facet_area(touch.facet);
+        const double pressure = surface.pressure(touch.facet, touch.pair.magnitude);
         const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
         tangent *= std::sqrt(1.0 + mu * mu);
       }
@@ -321,7 +325,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   if (options_.rubs() && rub) {
     // The force that settles an account may pull a little: nothing rubs then.
     const double pressing = std::max(normal_force, 0.0);
-    const double mu = friction_coefficient(options_.friction_law, options_.friction, pressing / surface.facet_area(touch.facet),
+    const double mu = friction_coefficient(options_.friction_law, options_.friction, surface.pressure(touch.facet, pressing),
                                            norm(motion.tangential_velocity));
     double limit = mu * pressing;
     if (options_.shear_limit < 1e29 && !rules.reference_friction) {

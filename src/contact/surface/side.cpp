@@ -86,6 +86,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
   take(state.thickness, thickness_);
   for (std::size_t f = 0; f < state.active.size(); ++f) active_[f] = state.active[at(listed(static_cast<Index>(f)))];
   find_borders();
+  if (!state.node_active.empty()) nodes_said_.assign(state.node_active.begin(), state.node_active.end());
   largest_corner_stiffness_ = 0.0;
   smallest_corner_stiffness_ = 1e300;
   double thinnest = 1e300, thickest = 0.0;  // of active corners
@@ -95,7 +96,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
     double mean = 0.0, thick = 0.0;
     int around = 0;
     for (const Index f : surface_.facets_at(s)) {
-      if (!active(f) && state.node_active.empty()) continue;
+      if (!active(f) && nodes_said_.empty()) continue;
       const bool triangle = surface_.is_triangle(f);
       double share = triangle ? 1.0 / 3.0 : 0.25;
       if (triangle && third_node_twice) share = surface_.local()[at(f)][2] == s ? 0.5 : 0.25;
@@ -105,7 +106,7 @@ void Side::set(const SurfaceState& state, bool third_node_twice) {
       thick += thickness(f);
       ++around;
     }
-    node_active_[at(s)] = state.node_active.empty() ? (around > 0 ? 1 : 0) : state.node_active[at(s)];
+    node_active_[at(s)] = nodes_said_.empty() ? (around > 0 ? 1 : 0) : nodes_said_[at(s)];
     of_node[at(s)] = sum;
     of_corner[at(s)] = around > 0 ? mean / around : 0.0;
     largest_corner_stiffness_ = std::max(largest_corner_stiffness_, of_corner[at(s)]);
@@ -204,6 +205,20 @@ Vec3 Side::pseudonormal(Index f, const ClosestPoint& point) const {
     sum += angle_from_cosine(dot(next, previous)) * normalized(cross(next, previous));
   }
   return normalized(sum);
+}
+
+void check_held_nodes(std::span<const Index> nodes) {
+  std::vector<Index> sorted(nodes.begin(), nodes.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (!sorted.empty() && sorted.front() < 0)
+    throw std::invalid_argument("contact: held node " + std::to_string(sorted.front()) + " is negative");
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) throw std::invalid_argument("contact: node " + std::to_string(*twice) + " is held twice");
+}
+
+double Side::pressure(Index f, double force) const {
+  const double area = facet_area(f);
+  return area > 0.0 ? force / area : 0.0;
 }
 
 double Side::facet_area(Index f) const {

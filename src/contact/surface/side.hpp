@@ -19,6 +19,8 @@ using Values = simd::FewValues<std::uint8_t>;
 
 /// @throws std::invalid_argument, with the name of the values, when one is negative or not finite
 void check_finite(std::span<const double> values, const char* what);
+/// @throws std::invalid_argument for a node that is negative or listed twice
+void check_held_nodes(std::span<const Index> nodes);
 
 class Side {
  public:
@@ -81,6 +83,8 @@ class Side {
   [[nodiscard]] Vec3 pseudonormal(Index f, const ClosestPoint& point) const;
 
   [[nodiscard]] double facet_area(Index f) const;
+  /// Force over the facet's area; 0 on a facet without area.
+  [[nodiscard]] double pressure(Index f, double force) const;
   /// Facet areas over their corners at node s.
   [[nodiscard]] double tributary_area(Index s) const;
   /// Mean square root of the facets' areas.
@@ -91,6 +95,7 @@ class Side {
   std::vector<Index> nodes_;   ///< without facets
   std::vector<Index> listed_;  ///< facet number as the host listed it; empty: the same
   std::vector<std::uint8_t> active_, node_active_, borders_;
+  std::vector<std::uint8_t> nodes_said_;  ///< activity of nodes as the host said it last; empty: never
   Values facet_stiffness_, node_stiffness_, corner_stiffness_, thickness_, node_thickness_;
   double largest_corner_stiffness_ = 0.0, smallest_corner_stiffness_ = 0.0;  ///< of active corners
   bool evenly_thick_ = true;
