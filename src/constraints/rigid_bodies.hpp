@@ -196,6 +196,8 @@ class RigidBodies {
   };
   void follow_sensors(state::State& state);
   void switch_on(std::size_t index, state::State& state, bool at_start);
+  /// Of the initial velocity of a main node, when that is one about an axis; else 0.
+  [[nodiscard]] Vec3 axis_spin(Index main) const;
   void switch_off(std::size_t index, state::State& state);
   void compute_inertia(std::size_t index, state::State& state, int icog, bool card_values);
   void claim(std::size_t index, bool on);

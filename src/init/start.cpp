@@ -68,16 +68,17 @@ state::State make_state(const model::Model& model, std::span<const std::unique_p
   for (const std::unique_ptr<elements::Group>& g : groups) g->add_masses(s.mass, s.inertia);
   for (const model::AddedMass& m : model.added_masses) s.mass[static_cast<std::size_t>(m.node)] += m.mass;
 
+  std::vector<bool> turns(s.x.size(), false);
+  for (std::size_t i = 0; i < turns.size(); ++i) turns[i] = s.inertia[i] > 0.0;
+  for (const model::RigidBody& body : model.rigid_bodies) turns[static_cast<std::size_t>(body.main)] = true;  // its inertia comes later
   // The last card that names a node wins (deck-format.md D.2).
   for (const model::InitialVelocity& card : model.initial_velocities) {
-    for (const Index n : card.nodes) (card.rotational ? s.w : s.v)[static_cast<std::size_t>(n)] = card.value;
-  }
-  for (const model::InitialRotation& card : model.initial_rotations) {
-    const Vec3 omega = card.rate * card.axis;
     for (const Index n : card.nodes) {
       const auto i = static_cast<std::size_t>(n);
-      s.v[i] = card.translation + cross(omega, s.x[i] - card.origin);
-      if (s.inertia[i] > 0.0) s.w[i] = omega;
+      (card.rotational ? s.w : s.v)[i] = card.value;
+      if (!card.about_axis) continue;
+      s.v[i] += cross(card.spin, s.x[i] - card.origin);
+      if (turns[i]) s.w[i] = card.spin;
     }
   }
   return s;

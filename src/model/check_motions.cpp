@@ -107,14 +107,10 @@ class MotionChecks {
   void initial_velocities() {
     std::map<Id, std::vector<Index>> nodes_of;  // /INIVEL/NODE is one item per node
     std::set<Index> moving;
-    const auto collect = [&](const auto& items) {
-      for (const auto& v : items) {
-        nodes_of[v.id].insert(nodes_of[v.id].end(), v.nodes.begin(), v.nodes.end());
-        moving.insert(v.nodes.begin(), v.nodes.end());
-      }
-    };
-    collect(m_.initial_velocities);
-    collect(m_.initial_rotations);
+    for (const InitialVelocity& v : m_.initial_velocities) {
+      nodes_of[v.id].insert(nodes_of[v.id].end(), v.nodes.begin(), v.nodes.end());
+      moving.insert(v.nodes.begin(), v.nodes.end());
+    }
     for (const auto& [id, nodes] : nodes_of) {
       following(
           "INIVEL", id, nodes, [&](Index main) { return moving.contains(main); }, "give the velocity to {}");

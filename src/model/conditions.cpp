@@ -66,7 +66,8 @@ void read_uniform_velocity(Context& c, const deck::Block& block, bool rotational
 
 void read_axis_velocity(Context& c, const deck::Block& block) {
   BlockReader r(c, block, 2, true);
-  InitialRotation v;
+  InitialVelocity v;
+  v.about_axis = true;
   v.id = r.id();
   r.next_card();
   const int direction = read_direction(r, {1, 10}, "Dir");
@@ -75,12 +76,11 @@ void read_axis_velocity(Context& c, const deck::Block& block) {
     r.error("model.unsupported", {11, 20}, "frame_ID", "frames are not supported; write 0 for the global origin and axes");
   }
   v.nodes = required_group(r, {21, 30}, "grnd_ID");
-  v.axis[direction % 3] = 1.0;
   r.next_card();
-  v.translation = read_vector(r, 1, {"Vx", "Vy", "Vz"}, dim::velocity);
-  v.rate = r.real({61, 80}, "Vr", dim::rate);
+  v.value = read_vector(r, 1, {"Vx", "Vy", "Vz"}, dim::velocity);
+  v.spin[direction % 3] = r.real({61, 80}, "Vr", dim::rate);
   refuse_delay(r);
-  c.model->initial_rotations.push_back(std::move(v));
+  c.model->initial_velocities.push_back(std::move(v));
 }
 
 void read_nodal_velocities(Context& c, const deck::Block& block) {

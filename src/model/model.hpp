@@ -156,18 +156,14 @@ struct BoundaryCondition {
   std::vector<Index> nodes;
 };
 
+/// v = value, `rotational`: w = value, `about_axis` (/INIVEL/AXIS): v = value + spin x (x - origin) and w = spin. Global axes.
 struct InitialVelocity {
   Id id = 0;
   bool rotational = false;
-  Vec3 value;  ///< global axes
+  Vec3 value;
   std::vector<Index> nodes;
-};
-/// /INIVEL/AXIS: v = translation + rate * axis x (x - origin)
-struct InitialRotation {
-  Id id = 0;
-  Vec3 translation, axis, origin;
-  double rate = 0.0;
-  std::vector<Index> nodes;
+  bool about_axis = false;
+  Vec3 spin{}, origin{};
 };
 
 /// /IMPVEL, /IMPDISP, /IMPACC: value(t) = scale_y * f(t / scale_x)
@@ -365,8 +361,7 @@ struct Model {
   std::vector<Sensor> sensors;
 
   std::vector<BoundaryCondition> boundary_conditions;
-  std::vector<InitialVelocity> initial_velocities;
-  std::vector<InitialRotation> initial_rotations;
+  std::vector<InitialVelocity> initial_velocities;  ///< in the order of the deck: the last one that names a node wins
   std::vector<ImposedMotion> imposed_motions;
   std::vector<ConcentratedLoad> concentrated_loads;
   std::vector<PressureLoad> pressure_loads;

@@ -102,7 +102,7 @@ void print_conditions(std::string& out, const model::Model& model) {
     if (count > 0) print(line, "{}{} {}", line.empty() ? "" : ", ", count, what);
   };
   add(model.boundary_conditions.size(), "boundary conditions");
-  add(model.initial_velocities.size() + model.initial_rotations.size(), "initial velocities");
+  add(model.initial_velocities.size(), "initial velocities");
   add(model.imposed_motions.size(), "imposed motions");
   add(model.concentrated_loads.size(), "concentrated loads");
   add(model.pressure_loads.size(), "pressure loads");

@@ -66,17 +66,17 @@ TEST(Conditions, InitialVelocitiesKeepTheOrderOfTheDeck) {
                                                         integers({"Y", "0", "3"}) + "\n" + reals({"0", "0", "2", "9"}));
   ASSERT_EQ(b.messages(), std::vector<std::string>{});
   const auto& v = b.model.initial_velocities;
-  ASSERT_EQ(v.size(), 4u);
+  ASSERT_EQ(v.size(), 5u);
   EXPECT_EQ(v[0].id, 5);
   EXPECT_TRUE(v[0].rotational);
   EXPECT_EQ(v[1].value, (Vec3{1, 2, 3}));
   EXPECT_EQ(v[2].value, (Vec3{0, 5, 0}));
   EXPECT_TRUE(v[2].rotational);
-  EXPECT_EQ(v[3].id, 1);
-  const InitialRotation& a = b.model.initial_rotations.at(0);
-  EXPECT_EQ(a.axis, (Vec3{0, 1, 0}));
-  EXPECT_EQ(a.translation, (Vec3{0, 0, 2}));
-  EXPECT_EQ(a.rate, 9.0);
+  EXPECT_TRUE(v[3].about_axis);
+  EXPECT_FALSE(v[3].rotational);
+  EXPECT_EQ(v[3].spin, (Vec3{0, 9, 0}));
+  EXPECT_EQ(v[3].value, (Vec3{0, 0, 2}));
+  EXPECT_EQ(v[4].id, 1);
 }
 
 TEST(Conditions, ZeroScaleIsOneInTheUnitOfTheDeck) {
