@@ -66,10 +66,10 @@ struct History {
   [[nodiscard]] std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
 };
 
-/// What the watch over the contacts found while the run went on.
+/// What was found while the run went on: contacts, deleted elements.
 struct RunFinding {
   Diagnostic diagnostic;
-  Id interface_id = 0;
+  Id interface_id = 0;  ///< 0: it is not about one
   double time = 0.0;
   std::int64_t cycle = 0;
   double measure = 0.0;                     ///< how bad it is; docs/findings/index.md says of what

@@ -23,6 +23,19 @@ Loads::Loads(const model::Model& model, const Curves& curves, const Axes& axes) 
   if (!model.pressure_loads.empty()) pressure_.resize(static_cast<std::size_t>(model.node_count()));
 }
 
+void Loads::erode(const std::function<std::vector<model::ElementRef>(const std::array<Index, 4>&)>& owners,
+                  const std::function<bool(const model::ElementRef&)>& alive) {
+  gone_.resize(model_->pressure_loads.size());
+  for (std::size_t i = 0; i < gone_.size(); ++i) {
+    const auto& segments = model_->pressure_loads[i].segments;
+    gone_[i].assign(segments.size(), 0);
+    for (std::size_t j = 0; j < segments.size(); ++j) {
+      const std::vector<model::ElementRef> elements = owners(segments[j]);
+      gone_[i][j] = !elements.empty() && std::none_of(elements.begin(), elements.end(), alive) ? 1 : 0;
+    }
+  }
+}
+
 void Loads::apply(state::State& state) {
   const double t = state.times.t;
   std::fill(state.f_external.begin(), state.f_external.end(), Vec3{});
@@ -40,10 +53,13 @@ void Loads::apply(state::State& state) {
 void Loads::add_pressure(state::State& state) {
   const double t = state.times.t;
   std::fill(pressure_.begin(), pressure_.end(), Vec3{});
-  for (const model::PressureLoad& load : model_->pressure_loads) {
+  for (std::size_t i = 0; i < model_->pressure_loads.size(); ++i) {
+    const model::PressureLoad& load = model_->pressure_loads[i];
     if (!curves_->on(load.sensor, t)) continue;
     const double p = curves_->scaled(load.function, load.sensor, load.scale_x, load.scale_y, t);
-    for (const auto& segment : load.segments) {
+    for (std::size_t j = 0; j < load.segments.size(); ++j) {
+      if (!gone_.empty() && gone_[i][j] != 0) continue;
+      const std::array<Index, 4>& segment = load.segments[j];
       const auto at = [&](std::size_t k) { return state.x[static_cast<std::size_t>(segment[k])]; };
       const bool triangle = segment[3] == segment[2] || segment[3] == no_index;
       const Vec3 force = triangle ? p / 6.0 * cross(at(2) - at(0), at(2) - at(1)) : p / 8.0 * cross(at(2) - at(0), at(3) - at(1));

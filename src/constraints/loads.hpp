@@ -1,6 +1,9 @@
 // Concentrated and pressure loads, gravity (numerics.md 6.4, 6.5; work: 1.6.4).
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "constraints/axes.hpp"
@@ -14,10 +17,15 @@ namespace abut::constraints {
 class RigidBodies;
 
 /// /CLOAD: F = scale_y f(t / scale_x) along the axis at t^n. /PLOAD, quadrilateral: P/8 (x3 - x1) x (x4 - x2) on each node,
-/// triangle (last node repeated): P/6 (x3 - x1) x (x3 - x2); positive P pushes along the segment's normal.
+/// triangle (last node repeated): P/6 (x3 - x1) x (x3 - x2); positive P pushes along the segment's normal, until the segment's elements are
+/// deleted.
 class Loads {
  public:
   Loads(const model::Model& model, const Curves& curves, const Axes& axes);
+
+  /// Switches off the pressure on facets all of whose elements are gone. @param owners  elements of a facet; empty: it stays
+  void erode(const std::function<std::vector<model::ElementRef>(const std::array<Index, 4>&)>& owners,
+             const std::function<bool(const model::ElementRef&)>& alive);
 
   /// Step 3: sets (not adds to) f_external and m_external at t^n.
   void apply(state::State& state);
@@ -40,7 +48,8 @@ class Loads {
   const model::Model* model_;
   const Curves* curves_;
   const Axes* axes_;
-  std::vector<Vec3> pressure_;  ///< #N by 3, /PLOAD forces of the cycle; empty without /PLOAD
+  std::vector<Vec3> pressure_;                   ///< #N by 3, /PLOAD forces of the cycle; empty without /PLOAD
+  std::vector<std::vector<std::uint8_t>> gone_;  ///< per /PLOAD and segment: no element left; empty: none
   ForceWork work_;
 };
 

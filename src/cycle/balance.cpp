@@ -69,9 +69,14 @@ void Cycle::erode() {
           g->active(e) ? 1 : 0;
     }
   }
-  init::update_erosion(model_, interfaces_, [&alive](const model::ElementRef& e) {
+  const auto is_alive = [&alive](const model::ElementRef& e) {
     return alive[static_cast<std::size_t>(e.kind)][static_cast<std::size_t>(e.index)] != 0;
-  });
+  };
+  init::update_erosion(model_, interfaces_, is_alive);
+  if (!model_.pressure_loads.empty()) {
+    if (!face_owners_) face_owners_.emplace(model_);
+    loads_.erode([this](const std::array<Index, 4>& nodes) { return face_owners_->of(nodes); }, is_alive);
+  }
   eroded_ = false;
 }
 

@@ -28,6 +28,7 @@
 #include "cycle/time_step.hpp"
 #include "elements/assembly.hpp"
 #include "init/contact_setup.hpp"
+#include "init/face_owners.hpp"
 #include "init/start.hpp"
 #include "simd/aligned.hpp"
 
@@ -139,6 +140,7 @@ class Cycle {
   bool history_due_ = false, animation_due_ = false, listing_due_ = false;
   bool begun_ = false;
   bool eroded_ = false;
+  std::optional<init::FaceOwners> face_owners_;  // once an element of a model with pressures is gone
   double scaled_energy_ = 0.0;
   double removed_energy_ = 0.0;                 // held by deleted elements that their groups no longer count
   std::vector<Vec3> edited_v_, edited_w_;       // #N, empty: nothing was changed

@@ -190,7 +190,8 @@ void read_pressure_load(Context& c, const deck::Block& block) {
     r.error("model.unsupported", {31, 40}, "Ipinch", "pressure on the pinching of shells is not supported; write 0");
   }
   if (!old_layout(c) && r.integer({41, 50}, "Idel") != 0) {
-    r.error("model.unsupported", {41, 50}, "Idel", "taking the pressure off deleted elements is not supported; write 0");
+    r.error("model.unsupported", {41, 50}, "Idel",
+            "other rules for deleted elements are not supported: the pressure ends with the last element of a facet; write 0");
   }
   refuse_abscissa(r, {51, 60});
   const Scales s = read_scales(r, dim::pressure);

@@ -8,6 +8,7 @@
 
 #include "output/animation_fields.hpp"
 #include "output/element_lookup.hpp"
+#include "output/erosion_watch.hpp"
 #include "output/history_columns.hpp"
 #include "output/summary.hpp"
 
@@ -98,6 +99,9 @@ void Listing::end(const cycle::Outcome& outcome) {
   text +=
       fmt::format("Worst       energy error {:.3f} % at time {:.6g}, contact made {:.4g} at time {:.6g}\n",
                   100.0 * record_.worst_error().value, record_.worst_error().time, record_.worst_made().value, record_.worst_made().time);
+  for (const RunFinding& f : *info_.during) {
+    if (f.diagnostic.code == ErosionWatch::deleted) text += fmt::format("Deleted     {}\n", f.diagnostic.message);
+  }
   if (b.added_mass > 0.0) {
     text +=
         fmt::format("Added mass  {:.6g} by /DT/NODA/CST, {:.3g} % of the mass without it{}\n", b.added_mass, 100.0 * mass_error(b),

@@ -4,13 +4,16 @@
 
 #include "output/animation.hpp"
 #include "output/contact_watch.hpp"
+#include "output/erosion_watch.hpp"
 #include "output/listing.hpp"
 #include "output/manifest.hpp"
 #include "output/time_history.hpp"
 
 namespace abut::output {
 
-cycle::Sink* add_contact_watch(SinkSet& sinks, const RunInfo& info) { return sinks.add(std::make_unique<ContactWatch>(info.during)); }
+std::vector<cycle::Sink*> add_watches(SinkSet& sinks, const RunInfo& info) {
+  return {sinks.add(std::make_unique<ContactWatch>(info.during)), sinks.add(std::make_unique<ErosionWatch>(info.during))};
+}
 
 std::vector<cycle::Sink*> add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info,
                                           std::function<std::vector<PhaseTime>()> timings) {

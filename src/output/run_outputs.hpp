@@ -17,7 +17,7 @@ namespace abut::output {
 std::vector<cycle::Sink*> add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info,
                                           std::function<std::vector<PhaseTime>()> timings);
 
-/// The watch over the contacts. It comes before the files, which write what it says.
-cycle::Sink* add_contact_watch(SinkSet& sinks, const RunInfo& info);
+/// The watches over contacts and deleted elements. They come before the files, which write what they say.
+std::vector<cycle::Sink*> add_watches(SinkSet& sinks, const RunInfo& info);
 
 }  // namespace abut::output

@@ -98,7 +98,9 @@ void Run::Impl::save(const std::filesystem::path& path, const std::filesystem::p
   state::Archive a([&sealer](std::span<const std::byte> piece) { sealer.add(piece); });
   checkpoint_info().persist(a);
   cycle->persist(a);
-  std::vector<std::byte> watch = packed([this](state::Archive& part) { watch_->persist(part); });
+  std::vector<std::byte> watch = packed([this](state::Archive& part) {
+    for (cycle::Sink* one : watches_) one->persist(part);
+  });
   std::vector<std::byte> memory = packed([this](state::Archive& part) {
     if (memory_ != nullptr) memory_->persist(part);
   });
@@ -125,7 +127,9 @@ void Run::Impl::restore_outputs(run::Checkpoint& from, bool resume) {
     a.growing(files);
   });
   a.finish();
-  unpack(watch, [this](state::Archive& part) { watch_->persist(part); });
+  unpack(watch, [this](state::Archive& part) {
+    for (cycle::Sink* one : watches_) one->persist(part);
+  });
   if (memory_ != nullptr && !memory.empty()) unpack(memory, [this](state::Archive& part) { memory_->persist(part); });
   if (!resume) return;
   unpack(files, [this](state::Archive& part) {

@@ -115,7 +115,7 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
 }
 
 void Run::Impl::open_outputs() {
-  watch_ = output::add_contact_watch(sinks, info);
+  watches_ = output::add_watches(sinks, info);
   if (!settings.output.empty()) {
     files_ = output::add_run_outputs(sinks, {settings.output, model.name()}, info, [this] { return timings(); });
   }

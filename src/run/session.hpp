@@ -81,7 +81,7 @@ struct Run::Impl {
   void keep_checkpoint();
   [[nodiscard]] run::CheckpointInfo checkpoint_info();
 
-  cycle::Sink* watch_ = nullptr;
+  std::vector<cycle::Sink*> watches_;
   cycle::Sink* memory_ = nullptr;  ///< null: not asked for
   std::vector<cycle::Sink*> files_;
   std::vector<std::ofstream> call_logs_;  ///< per RunSettings::recordings

@@ -103,9 +103,9 @@ void bind_results(py::module_& m) {
       .def("__str__", [](const Outcome& o) { return to_string(o); })
       .def("__repr__", [](const Outcome& o) { return "<" + to_string(o) + ">"; });
 
-  py::class_<RunFinding>(m, "RunFinding", "What the watch over the contacts found while the run went on.")
+  py::class_<RunFinding>(m, "RunFinding", "What was found while the run went on: contacts, deleted elements.")
       .def_readonly("diagnostic", &RunFinding::diagnostic, "code and sentence; the sentence names up to twenty nodes")
-      .def_readonly("interface_id", &RunFinding::interface_id, "of the deck")
+      .def_readonly("interface_id", &RunFinding::interface_id, "of the deck; 0: it is not about one")
       .def_readonly("time", &RunFinding::time, "when it was found, in the model's unit of time")
       .def_readonly("cycle", &RunFinding::cycle, "when it was found, cycles from 0")
       .def_readonly("measure", &RunFinding::measure, "how bad it is; docs/findings/index.md says of what, code by code")
@@ -115,8 +115,9 @@ void bind_results(py::module_& m) {
           "segments", [](const RunFinding& f) { return copy(std::span<const std::array<Id, 4>>(f.segments)); },
           "(K, 4) node ids of segments; a triangle repeats its third")
       .def("__str__", [](const RunFinding& f) { return to_string(f.diagnostic); })
-      .def("__repr__",
-           [](const RunFinding& f) { return "<" + f.diagnostic.code + " of interface " + std::to_string(f.interface_id) + ">"; });
+      .def("__repr__", [](const RunFinding& f) {
+        return "<" + f.diagnostic.code + (f.interface_id == 0 ? "" : " of interface " + std::to_string(f.interface_id)) + ">";
+      });
 }
 
 }  // namespace abut::python

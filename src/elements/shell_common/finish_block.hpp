@@ -18,9 +18,13 @@ ABUT_INLINE void book_block(const ShellKernelArgs& args, std::size_t block) {
   for (int l = 0; l < shell_lanes; l += N::width) {
     const auto value = [&](int variable) { return N::load(state + variable * shell_lanes + l); };
     const auto add = [l](double* sums, T a) { N::store(sums + l, N::load(sums + l) + a); };
-    add(book.internal, value(shell_state::membrane_energy) + value(shell_state::bending_energy));
-    add(book.hourglass, value(shell_state::hourglass_energy));
-    add(book.on, select(value(shell_state::off) > T(0.0), T(1.0), T(0.0)));
+    const T internal = value(shell_state::membrane_energy) + value(shell_state::bending_energy);
+    const T hourglass = value(shell_state::hourglass_energy), zero = T(0.0);
+    const auto on = value(shell_state::off) > zero;
+    add(book.internal, select(on, internal, zero));
+    add(book.hourglass, select(on, hourglass, zero));
+    add(book.removed, select(on, zero, internal + hourglass));
+    add(book.on, select(on, T(1.0), zero));
     if (!steps) continue;
     const T step = N::load(args.steps + block * args.step_stride + l), least = N::load(book.step + l);
     const auto smaller = step < least;

@@ -27,6 +27,7 @@ enum : int {
 struct ShellBook {
   alignas(64) double internal[shell_lanes] = {};
   alignas(64) double hourglass[shell_lanes] = {};
+  alignas(64) double removed[shell_lanes] = {};                                             ///< energies of elements without activity
   alignas(64) double on[shell_lanes] = {};                                                  ///< elements with activity
   alignas(64) double step[shell_lanes] = {1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 1e30};  ///< least step, and
   alignas(64) double block[shell_lanes] = {};                                               ///< the first block that has it

@@ -317,8 +317,9 @@ ABUT_INLINE ShellForces<T> update_section(const ShellSection& s, double* state, 
   const T membrane = (old_fxx + out.fxx) * dexx + (old_fyy + out.fyy) * deyy + (old_fxy + out.fxy) * dgxy + (old_fyz + out.fyz) * dgyz +
                      (old_fzx + out.fzx) * dgzx;
   const T bending = (old_mxx + out.mxx) * dkxx + (old_myy + out.myy) * dkyy + (old_mxy + out.mxy) * dkxy;
-  put(state, shell_state::membrane_energy, get<T>(state, shell_state::membrane_energy) + half_volume * membrane);
-  put(state, shell_state::bending_energy, get<T>(state, shell_state::bending_energy) + half_volume * t * bending);
+  const auto on = off_old > T(0.0);  // a deleted element keeps its energies, whatever becomes of its shape
+  put(state, shell_state::membrane_energy, get<T>(state, shell_state::membrane_energy) + select(on, half_volume * membrane, T(0.0)));
+  put(state, shell_state::bending_energy, get<T>(state, shell_state::bending_energy) + select(on, half_volume * t * bending, T(0.0)));
   put(state, 0, out.fxx);
   put(state, 1, out.fyy);
   put(state, 2, out.fxy);

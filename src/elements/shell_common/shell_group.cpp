@@ -207,6 +207,7 @@ void ShellGroup::run_chunk(ShellKernelArgs args, const StepOutput& out, std::siz
   for (int l = 0; l < lanes; ++l) {
     result.internal += book.internal[l];
     result.hourglass += book.hourglass[l];
+    result.removed_energy += book.removed[l];
     const Index element = static_cast<Index>(book.block[l]) * lanes + l;
     if (book.step[l] < result.step || (book.step[l] == result.step && result.step < 1e30 && element < result.element)) {
       result.step = book.step[l];
@@ -268,6 +269,7 @@ GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, paralle
     }
     total.internal_energy += r.internal;
     total.hourglass_energy += r.hourglass;
+    total.removed_energy += r.removed_energy;
     total.removed += r.removed;
     if (total.bad_element == no_index && !std::isfinite(r.internal + r.hourglass)) total.bad_element = first_bad_element(c);
   }
@@ -277,7 +279,7 @@ GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, paralle
 Index ShellGroup::first_bad_element(std::size_t chunk) const {
   const auto begin = static_cast<Index>(chunks_.first_block(chunk) * lanes);
   for (Index e = begin; e < std::min(static_cast<Index>(chunks_.end_block(chunk) * lanes), size()); ++e) {
-    if (!std::isfinite(element_energy(e))) return e;
+    if (active(e) && !std::isfinite(element_energy(e))) return e;
   }
   return begin;
 }

@@ -67,7 +67,7 @@ class ShellGroup : public Group {
 
  private:
   struct ChunkResult {
-    double step = 1e30, internal = 0.0, hourglass = 0.0;
+    double step = 1e30, internal = 0.0, hourglass = 0.0, removed_energy = 0.0;
     double on = -1.0;  ///< elements with activity; < 0: to be counted
     Index element = 0, removed = 0;
   };

@@ -100,7 +100,7 @@ ABUT_INLINE Q4Hourglass<T> q4_hourglass(const ShellSection& s, const Q4Parameter
     put(state, at + 4, o.my);
   }
   work = (work + o.dn_1 * d1 + o.dn_2 * d2) * off;
-  put(state, shell_state::hourglass_energy, get<T>(state, shell_state::hourglass_energy) + work * step);
+  put(state, shell_state::hourglass_energy, get<T>(state, shell_state::hourglass_energy) + select(off > zero, work * step, zero));
   o.mx *= off;
   o.my *= off;
   return o;

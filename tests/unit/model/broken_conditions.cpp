@@ -127,7 +127,7 @@ std::vector<BrokenDeck> broken_conditions() {
      {"deck_0000.rad:134: /PLOAD/1 field 'surf_ID' (columns 1-10): no /SURF with id 8"}},
     {"pressure that ends with its elements", Changed::starter, "/PLOAD/1", 2,
      "         3         1         0         0         1         0                   0                   4",
-     {"deck_0000.rad:134: /PLOAD/1 field 'Idel' (columns 41-50): taking the pressure off deleted elements is not supported; write 0"}},
+     {"deck_0000.rad:134: /PLOAD/1 field 'Idel' (columns 41-50): other rules for deleted elements are not supported: the pressure ends with the last element of a facet; write 0"}},
     {"pressure without surface", Changed::starter, "/PLOAD/1", 2,
      "         0         1         0         0         0         0                   0                   4",
      {"deck_0000.rad:134: /PLOAD/1 field 'surf_ID' (columns 1-10): no surface is given; write the id of a /SURF"}},
