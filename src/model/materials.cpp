@@ -50,7 +50,10 @@ LawElastic read_elastic(BlockReader& r) {
   law.young = r.real({1, 20}, "E", dim::pressure);
   law.poisson = r.real({21, 40}, "nu");
   if (law.young <= 0.0) r.error("model.young", {1, 20}, "E", fmt::format("Young's modulus is {:g}: it must be positive", law.young));
-  if (law.poisson == 0.5) law.poisson = 0.499;
+  if (law.poisson == 0.5) {
+    law.poisson = 0.499;
+    r.warning("model.poisson", {21, 40}, "nu", "Poisson's ratio is 0.5, of a material that keeps its volume: 0.499 is used");
+  }
   if (!(law.poisson > -1.0 && law.poisson < 0.5)) {
     r.error("model.poisson", {21, 40}, "nu", fmt::format("Poisson's ratio is {:g}: it must lie between -1 and 0.5", law.poisson));
     law.poisson = 0.0;
@@ -115,6 +118,10 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
   if (rate < 0 || rate > 3) r.error("model.bad_choice", {51, 60}, "VP", fmt::format("{} is not one of 1, 2, 3", rate));
   law.vp = rate == 0 ? 2 : static_cast<int>(rate);
   law.p_min = or_default(r.real({61, 80}, "P_min", dim::pressure), -unlimited);
+  if (law.p_min > 0.0) {
+    r.error("model.pressure_limit", {61, 80}, "P_min",
+            fmt::format("the least pressure is {:g}: it must be negative (tension), or 0 for none", law.p_min));
+  }
 
   r.next_card();
   law.a = r.real({1, 20}, form == 1 ? "SIG_Y" : "a", dim::pressure);
@@ -128,6 +135,10 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
   } else {
     law.b = second;
     law.n = or_default(third, 1.0);
+    if (law.b < 0.0) {
+      r.error("model.hardening", {21, 40}, "b",
+              fmt::format("the hardening is {:g}: it must not be negative, the yield stress would fall below 0", law.b));
+    }
     if (law.n < 0.0)
       r.error("model.hardening", {41, 60}, "n", fmt::format("the hardening exponent is {:g}: it must not be negative", law.n));
   }
@@ -149,6 +160,9 @@ LawJohnsonCook read_johnson_cook(BlockReader& r) {
   law.icc = icc == 0 ? 1 : static_cast<int>(icc);
   law.cutoff = r.real({61, 80}, "F_cut", dim::rate);
   if (law.cutoff < 0.0) r.error("model.rate", {61, 80}, "F_cut", "a cut-off frequency is positive, or 0 for no filter");
+  if (law.cutoff > 0.0 && law.c > 0.0 && law.vp == 1) {
+    r.warning("model.no_effect", {61, 80}, "F_cut", "the plastic strain rate of VP 1 is always filtered at 10 kHz, this field is not used");
+  }
   law.kinematic = r.real({81, 100}, "C_hard");
   if (!(law.kinematic >= 0.0 && law.kinematic <= 1.0)) {
     r.error("model.hardening", {81, 100}, "C_hard", fmt::format("{:g} is not between 0 (isotropic) and 1 (kinematic)", law.kinematic));

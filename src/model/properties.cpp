@@ -84,7 +84,10 @@ ShellProperty read_shell(Reading& in) {
   if (r.integer({41, 50}, "Ipinch") != 0) refuse(in, ElementKind::shell4, {41, 50}, "Ipinch", false, 1, "0 (no pinching) is");
   const double fail = r.real({61, 80}, "P_thickfail");
   if (fail < 0.0 || fail > 1.0) r.error("model.bad_fraction", {61, 80}, "P_thickfail", fmt::format("{:g} is not a fraction: 0 to 1", fail));
-  if (fail > 0.0) p.p_thickfail = fail;
+  if (fail > 0.0) {
+    p.p_thickfail = fail;
+    r.warning("model.no_effect", {61, 80}, "P_thickfail", "this field is not used: a shell fails when its most strained point does");
+  }
 
   r.next_card();
   const bool elastoplastic = p.ishell == 3;
@@ -137,6 +140,9 @@ SolidProperty read_solid(Reading& in) {
     if (iale != 0) refuse(in, ElementKind::brick, {21, 30}, "Iale", false, to_int(iale), "0 (Lagrangian) is");
   }
   p.icpre = read_flag(r, {31, 40}, "Icpre", 1, 3, d.icpre);
+  if (p.icpre == 1 || p.icpre == 2) {
+    r.warning("model.no_effect", {31, 40}, "Icpre", "this field is not used: solids of one point have one pressure");
+  }
   p.iframe = d.iframe;
   p.itetra4 = d.itetra4;
   p.imas = d.imas;
