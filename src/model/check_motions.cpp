@@ -37,6 +37,7 @@ class MotionChecks {
     initial_velocities();
     boundary_conditions();
     gravities();
+    rotations();
   }
 
  private:
@@ -141,6 +142,43 @@ class MotionChecks {
         });
       };
       following("GRAV", g.id, g.nodes, acts, "take {} into the group, where the weight of the whole body acts");
+    }
+  }
+
+  /// Moments and rotations of nodes that have no rotational inertia.
+  void rotations() {
+    std::vector<bool> turns(static_cast<std::size_t>(m_.node_count()), false);
+    const auto mark = [&turns](const auto& nodes) {
+      for (const Index n : nodes) turns[static_cast<std::size_t>(n)] = true;
+    };
+    for (const auto& nodes : m_.shells.nodes) mark(nodes);
+    for (const auto& nodes : m_.sh3ns.nodes) mark(nodes);
+    for (const RigidBody& b : m_.rigid_bodies) {
+      mark(b.nodes);
+      if (b.main != no_index) turns[static_cast<std::size_t>(b.main)] = true;
+    }
+    std::map<std::pair<std::string_view, Id>, std::vector<Index>> lost;
+    const auto look = [&](std::string_view word, Id id, const std::vector<Index>& nodes) {
+      for (const Index n : nodes) {
+        if (!turns[static_cast<std::size_t>(n)]) lost[{word, id}].push_back(n);
+      }
+    };
+    for (const InitialVelocity& v : m_.initial_velocities) {
+      if (v.rotational && v.value != Vec3{}) look("INIVEL", v.id, v.nodes);
+    }
+    for (const ImposedMotion& motion : m_.imposed_motions) {
+      if (motion.direction > 2) look(name_of(motion.kind), motion.id, motion.nodes);
+    }
+    for (const ConcentratedLoad& l : m_.concentrated_loads) {
+      if (l.direction > 2) look("CLOAD", l.id, l.nodes);
+    }
+    for (const auto& [card, nodes] : lost) {
+      const bool one = nodes.size() == 1;
+      d_.warning("model.rotation_of_solid", place_of(c_, card.first, card.second),
+                 fmt::format("{} of no shell and no rigid body and cannot turn, so this does nothing there: {}; {}",
+                             one ? "1 node is" : fmt::format("{} nodes are", nodes.size()), list(ids_of(nodes)),
+                             card.first == "INIVEL" ? "/INIVEL/AXIS gives a solid that spins its velocities"
+                                                    : "use forces or motions along X, Y, Z, or hold the nodes by a rigid body"));
     }
   }
 

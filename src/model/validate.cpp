@@ -257,12 +257,18 @@ class Validator {
                         nodes.size() == 1 ? "1 node belongs" : fmt::format("{} nodes belong", nodes.size()), other, list(ids_of(nodes))));
       }
       double mass = b.mass;
-      for (const Index n : all) mass += mass_[static_cast<std::size_t>(n)];
+      for (const Index n : all) {
+        if (b.icog != 4 || n == b.main) mass += mass_[static_cast<std::size_t>(n)];  // ICoG 4 leaves those of the secondary nodes out
+      }
       // A body that turns about a fixed main node needs no mass, so this is not an error.
       if (masses_are_known && b.sensor == no_index && !all.empty() && mass <= 0.0) {
         d_.warning(
             "model.no_mass", place("RBODY", b.id),
-            "the rigid body has no mass and cannot move freely; give one in the field Mass, or hold nodes of elements that have mass");
+            b.icog == 4
+                ? "the rigid body has no mass and cannot move freely: with ICoG 4 the masses of its secondary nodes do not count; give "
+                  "one in the field Mass, or write another ICoG"
+                : "the rigid body has no mass and cannot move freely; give one in the field Mass, or hold nodes of elements that "
+                  "have mass");
       }
     }
   }
