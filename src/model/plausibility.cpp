@@ -1,14 +1,19 @@
 // What a deck may say, but rarely means: materials in other units than /BEGIN, walls on bodies beside their centre of gravity, nodes
-// that a rigid wall does not stop.
+// that a rigid wall does not stop, bricks whose mass is not that of their shape.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <variant>
 #include <vector>
 
 #include "model/condition_fields.hpp"
 #include "model/measure.hpp"
+#include "model/topology.hpp"
+#include "model/wording.hpp"
 
 namespace abut::model {
 
@@ -126,12 +131,62 @@ void walls_and_bodies(Context& c) {
   }
 }
 
+/// The mass of a brick is that of its volume at the centre (docs/theory/cycle.md): of a collapsed one it may be far off.
+constexpr double volume_share = 0.05;
+
+void masses_of_collapsed_bricks(Context& c) {
+  const Model& m = *c.model;
+  struct Odd {
+    std::vector<Id> ids;
+    double worst = 0.0;
+    Id worst_id = 0;
+  };
+  std::map<Index, Odd> odd;  // by part
+  for (std::size_t e = 0; e < m.bricks.id.size(); ++e) {
+    std::array<Vec3, 8> x;
+    for (std::size_t k = 0; k < 8; ++k) x[k] = m.node_x[static_cast<std::size_t>(m.bricks.nodes[e][k])];
+    const double shape = std::abs(shape_volume(x));
+    const double off = shape > 0.0 ? std::abs(one_point_volume(x)) / shape - 1.0 : 0.0;
+    if (std::abs(off) <= volume_share) continue;
+    Odd& of_part = odd[m.bricks.part[e]];
+    of_part.ids.push_back(m.bricks.id[e]);
+    if (std::abs(off) > std::abs(of_part.worst)) {
+      of_part.worst = off;
+      of_part.worst_id = m.bricks.id[e];
+    }
+  }
+  for (const auto& [part, of_part] : odd) {
+    c.diagnostics->warning(
+        "model.brick_mass", place_of(c, "PART", m.parts[static_cast<std::size_t>(part)].id),
+        fmt::format(
+            "the mass of {} is that of the volume at the centre and differs by more than {:g} % from that of the shape: {} (element {} "
+            "by {:+.3g} %); enter tetrahedra as /TETRA4, and mesh other collapsed shapes anew",
+            of_part.ids.size() == 1 ? "1 brick" : fmt::format("{} bricks", of_part.ids.size()), 100.0 * volume_share, list(of_part.ids),
+            of_part.worst_id, 100.0 * of_part.worst));
+  }
+}
+
+/// 3-node shells have one kinematics, whatever Ismstr asks for.
+void small_strain_of_triangles(Context& c) {
+  const Model& m = *c.model;
+  std::set<Index> properties;
+  for (const Index part : m.sh3ns.part) properties.insert(m.parts[static_cast<std::size_t>(part)].property);
+  for (const Index p : properties) {
+    const auto* shell = p == no_index ? nullptr : std::get_if<ShellProperty>(&m.properties[static_cast<std::size_t>(p)].data);
+    if (shell == nullptr || shell->ismstr != 1) continue;
+    c.diagnostics->warning("model.no_effect", place_of(c, "PROP", m.properties[static_cast<std::size_t>(p)].id),
+                           "Ismstr 1 (small strain) does nothing for 3-node shells: their strains follow their geometry");
+  }
+}
+
 }  // namespace
 
 void check_plausibility(Context& context) {
   speeds_of_sound(context);
   wall_beside_the_centre(context);
   walls_and_bodies(context);
+  masses_of_collapsed_bricks(context);
+  small_strain_of_triangles(context);
 }
 
 }  // namespace abut::model

@@ -69,6 +69,24 @@ double one_point_volume(const std::array<Vec3, 8>& x) {
   return dot(cross(a, b), c) / 64.0;
 }
 
+double shape_volume(const std::array<Vec3, 8>& x) {
+  static constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  const double g = 1.0 / std::sqrt(3.0);
+  double volume = 0.0;
+  for (const auto& p : sign) {
+    std::array<Vec3, 3> d;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const auto& s = sign[i];
+      const double f[3] = {1.0 + s[0] * p[0] * g, 1.0 + s[1] * p[1] * g, 1.0 + s[2] * p[2] * g};
+      d[0] += 0.125 * s[0] * f[1] * f[2] * x[i];
+      d[1] += 0.125 * s[1] * f[2] * f[0] * x[i];
+      d[2] += 0.125 * s[2] * f[0] * f[1] * x[i];
+    }
+    volume += dot(cross(d[0], d[1]), d[2]);
+  }
+  return volume;
+}
+
 double tetra_volume(const std::array<Vec3, 4>& x) { return -dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6.0; }
 
 double facet_area(const std::array<Vec3, 4>& x) { return 0.5 * norm(cross(x[2] - x[0], x[3] - x[1])); }

@@ -11,6 +11,8 @@ namespace abut::model {
 
 /// Signed volume of a hexahedron by one-point integration: 8 times the Jacobian at its centre.
 [[nodiscard]] double one_point_volume(const std::array<Vec3, 8>& x);
+/// Exact volume of its trilinear shape.
+[[nodiscard]] double shape_volume(const std::array<Vec3, 8>& x);
 /// Signed volume; positive when the right-hand normal of the first three corners points away from the fourth.
 [[nodiscard]] double tetra_volume(const std::array<Vec3, 4>& x);
 /// Area of a facet as half of |x13 x x24|; a triangle repeats its third corner.

@@ -34,6 +34,46 @@ TEST(Plausibility, SpeedOfSoundOfAMaterialInOtherUnits) {
   EXPECT_TRUE(build_text(plate(si, "1e6", "")).messages().empty());  // rubber, 11 m/s
 }
 
+TEST(Plausibility, FieldsThatDoNothing) {
+  const std::string total =
+      with_line(base_starter, "/MAT/PLAS_JOHNS/2", 5,
+                "                 0.1                 1.0         0                             5                   0");
+  EXPECT_FALSE(build_text(total).has("F_cut"));
+  EXPECT_TRUE(build_text(with_line(total, "/MAT/PLAS_JOHNS/2", 3, "                 210                 0.3         0         1"))
+                  .has("warning: /MAT/PLAS_JOHNS/2 field 'F_cut' (columns 61-80): the plastic strain rate of VP 1 is always filtered at 10 "
+                       "kHz, this field is not used"));
+  const auto triangle = [](const char* ismstr) {
+    return build_text(with_line(with_line(plate(si, "2.1e11", ""), "/SHELL/1", 0, "/SH3N/1"), "/PROP/SHELL/1", 2,
+                                "         0" + testing::field(ismstr, 10)));
+  };
+  EXPECT_TRUE(triangle("1").has("warning: /PROP/SHELL/1: Ismstr 1 (small strain) does nothing for 3-node shells"));
+  EXPECT_FALSE(triangle("2").has("Ismstr"));
+}
+
+// One-point volumes: of a box and a prism exact, of a pyramid and a tetrahedron 1/4 and 1/8 of a box instead of 1/3 and 1/6.
+TEST(Plausibility, CollapsedBricksWithAnotherMassThanTheirShape) {
+  const auto brick = [](const std::vector<long>& corners) {
+    std::string deck = "/BEGIN\nbrick\n      2022         0\n" + millimetres + millimetres + "/NODE\n";
+    long id = 0;
+    for (const char* xyz : {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"}) {
+      const std::string all(xyz);
+      deck += testing::ints({++id}).substr(0, 10) + testing::reals({all.substr(0, 1), all.substr(2, 1), all.substr(4)});
+    }
+    deck += "/MAT/ELAST/3\nsteel\n" + testing::reals({"7.8e-9"}) + testing::reals({"2.1e5", "0.3"}) +
+            "/PROP/SOLID/1\nsolid\n\n\n\n/PART/4\na\n" + testing::ints({1, 3}) + "/BRICK/4\n";
+    std::vector<long> card = corners;
+    card.insert(card.begin(), 9);
+    return build_text(deck + testing::ints(card) + "/END\n");
+  };
+  EXPECT_FALSE(brick({1, 2, 3, 4, 5, 6, 7, 8}).has("the mass of"));
+  EXPECT_FALSE(brick({1, 2, 3, 3, 5, 6, 7, 7}).has("the mass of"));
+  EXPECT_TRUE(
+      brick({1, 2, 3, 4, 5, 5, 5, 5})
+          .has("warning: /PART/4: the mass of 1 brick is that of the volume at the centre and differs by more than 5 % from that of "
+               "the shape: 9 (element 9 by -25 %)"));
+  EXPECT_TRUE(brick({1, 2, 3, 3, 5, 5, 5, 5}).has("(element 9 by -25 %)"));
+}
+
 TEST(Plausibility, NodesOfARigidBodyPassAWall) {
   const auto body_with = [](int ikrem) {
     return "/GRNOD/NODE/1\nall\n" + testing::ints({1, 2, 3, 4}) + "/RBODY/1\nbody\n" + testing::ints({5, 0, 0, 0}).substr(0, 40) +
