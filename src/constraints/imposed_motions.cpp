@@ -88,6 +88,15 @@ void ImposedMotions::apply(state::State& state) {
   meter_.after(state);
 }
 
+double ImposedMotions::half_step_energy(const state::State& state) const {
+  double twice = 0.0;
+  for (const Index node : meter_.nodes()) {
+    const auto i = static_cast<std::size_t>(node);
+    twice += state.mass[i] * squared_norm(state.v[i]) + state.inertia[i] * squared_norm(state.w[i]);
+  }
+  return 0.5 * twice;
+}
+
 void ImposedMotions::persist(state::Archive& a) {
   a.each(dofs_, [&a](Dof& dof) {
     a(dof.angle);

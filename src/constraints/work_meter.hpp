@@ -69,6 +69,7 @@ class WorkMeter {
   /// @param bodies secondary nodes of active bodies are left out (they are overwritten), main nodes use the body's inertia
   WorkMeter(std::vector<Index> nodes, const RigidBodies* bodies);
 
+  [[nodiscard]] std::span<const Index> nodes() const { return nodes_; }
   void before(const state::State& state);
   void after(const state::State& state);
   /// A force added to state.f of `node` before accelerations exist (step 12).
