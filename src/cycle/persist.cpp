@@ -38,8 +38,7 @@ void persist_result(state::Archive& a, InterfaceResult& r) {
 }  // namespace
 
 void TimeStep::persist(state::Archive& a) {
-  a(previous_step_);
-  a(added_mass_);
+  for (double* d : {&previous_step_, &largest_step_, &window_time_, &added_mass_}) a(*d);
   a.growing(added_);
   if (!added_.empty() && added_.size() != static_cast<std::size_t>(model_.node_count())) {
     throw state::ArchiveError("the checkpoint does not fit the model (added masses)");

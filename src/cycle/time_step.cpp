@@ -28,6 +28,7 @@ TimeStep::TimeStep(const model::Model& model, const Profile& profile, bool has_t
     : model_(model),
       profile_(profile),
       two_sided_(has_two_sided_interface),
+      free_flight_(model),
       free_translation_(std::move(free_translation)),
       free_rotation_(std::move(free_rotation)) {
   const model::Controls& c = model.controls;
@@ -112,23 +113,40 @@ Index TimeStep::first_beyond(double ratio, const state::State& s) const {
   return no_index;
 }
 
-void TimeStep::refuse_endless(const state::State& s, double step, const StepController& who) const {
+void TimeStep::refuse_endless(const state::State& s, double step, const StepController& who) {
   constexpr double most_cycles = 1e13;
   const model::Controls& control = model_.controls;
   const bool stands_still = !(s.times.t + step > s.times.t);
   const bool chosen = step >= control.dt_initial && control.dt_initial > 0.0;  // a first step of the deck grows
   const bool endless = s.times.cycle == 0 && !chosen && control.t_end < 1e29 && control.t_end > most_cycles * step;
-  if (!stands_still && !endless) return;
+  const double collapsed = mean_of_collapse(s, step);
+  if (!stands_still && !endless && collapsed <= 0.0) return;
   using Kind = StepController::Kind;
   const bool node = who.kind == Kind::node || who.kind == Kind::contact_node;
+  const bool element = who.kind == Kind::shell || who.kind == Kind::sh3n || who.kind == Kind::brick || who.kind == Kind::tetra;
   const std::string by = node                          ? fmt::format(" of node {}", who.id)
+                         : element                     ? fmt::format(" of element {}", who.id)
                          : who.kind == Kind::interface ? fmt::format(" of interface {}", who.id)
                                                        : "";
-  throw RunError(
-      fmt::format("the time step {:.4g}{} does not get to the end time {:.6g} in {} (cycle {}, time {:.6g}): look at the mass, "
-                  "stiffness and gap there, and at the limits of /DT",
-                  step, by, control.t_end, stands_still ? "any number of cycles" : fmt::format("{:.0e} cycles", most_cycles), s.times.cycle,
-                  s.times.t));
+  const std::string where =
+      fmt::format("(cycle {}, time {:.6g}): look at the mass, stiffness and gap there, and at the limits of /DT", s.times.cycle, s.times.t);
+  if (collapsed > 0.0) {
+    throw RunError(fmt::format("the time step{} has collapsed from {:.4g} to {:.4g}: the end time {:.6g} is {:.0e} cycles away {}", by,
+                               largest_step_, step, control.t_end, (control.t_end - s.times.t) / collapsed, where));
+  }
+  throw RunError(fmt::format("the time step {:.4g}{} does not get to the end time {:.6g} in {} {}", step, by, control.t_end,
+                             stands_still ? "any number of cycles" : fmt::format("{:.0e} cycles", most_cycles), where));
+}
+
+double TimeStep::mean_of_collapse(const state::State& s, double step) {
+  constexpr std::int64_t window = 10000;  // cycles: a step that contact or a deck shortens for a while grows back within some hundred
+  constexpr double fallen = 1e-6, most_cycles = 1e9;
+  largest_step_ = std::max(largest_step_, step);
+  if (s.times.cycle == 0 || s.times.cycle % window != 0) return 0.0;
+  const double mean = (s.times.t - window_time_) / static_cast<double>(window);
+  window_time_ = s.times.t;
+  const double left = model_.controls.t_end - s.times.t;
+  return mean < fallen * largest_step_ && left < 1e29 && left > most_cycles * mean ? mean : 0.0;
 }
 
 StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::span<const double> contact_stiffness,
@@ -161,9 +179,9 @@ StepController TimeStep::choose(state::State& s, const StepLimits& limits, std::
   if (control.dt_max < step) take(control.dt_max, {StepController::Kind::fixed, 0});
   if (s.times.cycle == 0 && control.dt_initial > 0.0 && control.dt_initial < step)
     take(control.dt_initial, {StepController::Kind::fixed, 0});
-  const bool any = step > 1e29;  // nothing deforms: any step is stable. A thousandth of the run, growing to a hundredth
+  const bool any = step > 1e29;  // nothing deforms: any step is stable
   if (1.1 * previous_step_ < step) step = 1.1 * previous_step_;
-  if (any) step = std::min(step, control.t_end > 0.0 ? (s.times.cycle == 0 ? 1e-3 : 1e-2) * control.t_end : 1.0);
+  if (any) step = std::min(step, free_flight_.step(s));
   refuse_endless(s, step, who);
   previous_step_ = step;
   s.times.h_plus = step;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/profile.hpp"
+#include "cycle/free_flight.hpp"
 #include "cycle/node_kernels.hpp"
 #include "cycle/sink.hpp"
 #include "model/model.hpp"
@@ -52,18 +53,22 @@ class TimeStep {
   struct Smallest : LimitLeaf {
     Smallest& operator+=(const Smallest& b);
   };
-  /// Throws RunError where time stands still, or the first step asks for more cycles than any machine can do.
-  void refuse_endless(const state::State& s, double step, const StepController& who) const;
+  /// Throws RunError where time stands still, the first step asks for more cycles than any machine can do, or the step has collapsed.
+  void refuse_endless(const state::State& s, double step, const StepController& who);
+  /// Mean step of the last cycles, where it is a millionth of the largest one and does not get to the end in 1e9 cycles; else 0.
+  [[nodiscard]] double mean_of_collapse(const state::State& s, double step);
   [[nodiscard]] Smallest nodal(const state::State& s, bool rotations, parallel::ThreadPool& pool);
 
   const model::Model& model_;
   Profile profile_;
   bool two_sided_;
+  FreeFlight free_flight_;
   std::vector<std::uint8_t> free_translation_, free_rotation_;
   std::vector<std::uint8_t> scaled_;  ///< nodes that may receive mass
   std::vector<Smallest> leaves_;
   double nodal_scale_ = 0.9;
-  double previous_step_ = 1e30;  ///< before the first cycle: no limit on growth
+  double previous_step_ = 1e30;                    ///< before the first cycle: no limit on growth
+  double largest_step_ = 0.0, window_time_ = 0.0;  ///< of the run so far; where the present window of cycles began
   double added_mass_ = 0.0;
   std::vector<double> added_;     ///< #N, mass added so far, when masses may be scaled
   Index scaled_node_ = no_index;  ///< first node that got mass or inertia in this cycle
