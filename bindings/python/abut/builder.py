@@ -55,7 +55,8 @@ class ModelBuilder:
 
     Objects are named by the ids that their methods return, numbered from 1 unless an id is given; nodes and elements are given as ids.
     Values are in the units of the model. Arguments that make no card raise ValueError or TypeError at once, and leave the model as it
-    was; what only the whole model can tell (ids that do not exist, a negative density, ...) is InputError of build(), all faults in one go.
+    was; so does a scale of 0, which a card would take for 1. What only the whole model can tell (ids that do not exist, a negative
+    density, ...) is InputError of build(), all faults in one go.
     """
 
     def __init__(self, name: str = "model", *, title: str = "", units: Sequence[str] = ("kg", "m", "s")) -> None:
@@ -112,15 +113,15 @@ class ModelBuilder:
     def johnson_cook(self, *, density: float, young: float, poisson: float, yield_stress: float, hardening: float = 0.0,
                      exponent: float = 1.0, failure_strain: float = 0.0, largest_stress: float = 0.0, rate_coefficient: float = 0.0,
                      reference_rate: float = 0.0, id: int | None = None, title: str = "elastic-plastic") -> int:
-        """Elastic-plastic material (LAW2): (a + b e^n)(1 + c ln(e'/e0')) with a, b, n, c in the order of the arguments; 0: none.
+        """Elastic-plastic material (LAW2): (a + b e^n)(1 + c ln(e'/e0')) with a, b, n, c in the order of the arguments; 0: none, but of n.
 
         failure_strain: plastic strain at which an element is deleted, largest_stress: cap of the yield stress; 0: none. Returns its id.
         """
-        cards.check_finite(density=density, young=young, poisson=poisson, yield_stress=yield_stress, hardening=hardening, exponent=exponent,
+        cards.check_finite(density=density, young=young, poisson=poisson, yield_stress=yield_stress, hardening=hardening,
                            failure_strain=failure_strain, largest_stress=largest_stress, rate_coefficient=rate_coefficient,
                            reference_rate=reference_rate)
         return self._titled("MAT/PLAS_JOHNS", "MAT", id, title, reals(density), reals(young, poisson) + integers(0, 0) + real(0),
-                            reals(yield_stress, hardening, exponent, failure_strain, largest_stress),
+                            reals(yield_stress, hardening, cards.nonzero(exponent, "exponent"), failure_strain, largest_stress),
                             reals(rate_coefficient, reference_rate), reals(0, 0, 0, 0, 0))
 
     def shell_property(self, thickness: float, *, points: int = 3, ishell: int = 1, ismstr: int = 2, ish3n: int = 2,
@@ -178,24 +179,28 @@ class ModelBuilder:
                 birth: float = 0.0, death: float = 0.0, id: int | None = None, title: str = "contact") -> int:
         """Two surfaces, neither main (TYPE3). first, second: surface ids; gap: length; death 0: never. Returns its id."""
         cards.check_ids(first=first, second=second)
-        cards.check_finite(gap=gap, friction=friction, stiffness_scale=stiffness_scale, birth=birth, death=death)
+        cards.check_finite(gap=gap, friction=friction, birth=birth, death=death)
+        scale = cards.nonzero(stiffness_scale, "stiffness_scale")
         return self._titled("INTER/TYPE3", "INTER", id, title, integers(first, second) + " " * 50 + integers(0),
-                            reals(stiffness_scale, friction, gap, birth, death), "       000" + integers(0, 0), " " * 60 + real(0))
+                            reals(scale, friction, gap, birth, death), "       000" + integers(0, 0), " " * 60 + real(0))
 
     @_whole
     def contact_nodes(self, nodes: ArrayLike, surface: int, *, gap: float = 0.0, friction: float = 0.0, stiffness_scale: float = 0.2,
                       birth: float = 0.0, death: float = 0.0, id: int | None = None, title: str = "contact of nodes") -> int:
         """Nodes (ids) against a surface, one pass (TYPE5). Returns its id."""
         cards.check_ids(surface=surface)
-        cards.check_finite(gap=gap, friction=friction, stiffness_scale=stiffness_scale, birth=birth, death=death)
+        cards.check_finite(gap=gap, friction=friction, birth=birth, death=death)
+        scale = cards.nonzero(stiffness_scale, "stiffness_scale")
         group = self.group(nodes, title=title)
         return self._titled("INTER/TYPE5", "INTER", id, title, integers(group, surface) + " " * 50 + integers(0),
-                            reals(stiffness_scale, friction, gap, birth, death), "       000" + integers(0, 0, 0), integers(0, 0) + real(0))
+                            reals(scale, friction, gap, birth, death), "       000" + integers(0, 0, 0), integers(0, 0) + real(0))
 
     @_whole
     def contact_both_sides(self, surface: int, *, gap: float, nodes: ArrayLike | None = None, friction: float = 0.0,
                            birth: float = 0.0, death: float = 0.0, id: int | None = None, title: str = "contact on both sides") -> int:
-        """Nodes (ids; None: the surface's own, self contact) near both sides of a surface (TYPE7). gap: length. Returns its id."""
+        """Nodes (ids; None: the surface's own, self contact) near both sides of a surface (TYPE7). Returns its id.
+
+        gap: length, 0: made from the thicknesses there."""
         cards.check_ids(surface=surface)
         cards.check_finite(gap=gap, friction=friction, birth=birth, death=death)
         group = 0 if nodes is None else self.group(nodes, title=title)
@@ -236,13 +241,13 @@ class ModelBuilder:
         cards.check_integers(function=function)
         group = self.group(nodes, title=title)
         return self._titled("CLOAD", "CLOAD", id, title, integers(function, cards.direction(direction), 0, 0, group) + " " * 10 +
-                            reals(1, cards.finite(scale, "scale")))
+                            reals(1, cards.nonzero(scale, "scale")))
 
     def pressure(self, surface: int, function: int, *, scale: float = 1.0, id: int | None = None, title: str = "pressure") -> int:
         """Pressure scale * function(time) along the normals of a surface (right-hand rule over its facets). Returns its id."""
         cards.check_ids(surface=surface)
         cards.check_integers(function=function)
-        return self._titled("PLOAD", "PLOAD", id, title, integers(surface, function, 0, 0, "", 0) + reals(1, cards.finite(scale, "scale")))
+        return self._titled("PLOAD", "PLOAD", id, title, integers(surface, function, 0, 0, "", 0) + reals(1, cards.nonzero(scale, "scale")))
 
     @_whole
     def gravity(self, direction: str, function: int, *, scale: float = 1.0, nodes: ArrayLike | None = None, id: int | None = None,
@@ -251,7 +256,7 @@ class ModelBuilder:
         cards.check_integers(function=function)
         group = 0 if nodes is None else self.group(nodes, title=title)
         return self._titled("GRAV", "GRAV", id, title, integers(function, cards.direction(direction, rotations=False), 0, 0, group) + " " * 10 +
-                            reals(1, cards.finite(scale, "scale")))
+                            reals(1, cards.nonzero(scale, "scale")))
 
     @_whole
     def rigid_wall(self, point: ArrayLike, normal: ArrayLike, *, nodes: ArrayLike, friction: float = 0.0, id: int | None = None,
@@ -298,15 +303,14 @@ class ModelBuilder:
         step_scale: factor of the stable step; history_interval, animation_interval: times, None: a hundredth of end_time, no animation;
         print_every: cycles between lines of the listing; cards_text: any other blocks, each from its keyword line.
         """
-        if not cards.finite(end_time, "end_time") > 0:
-            raise ValueError(f"end_time is {end_time}, expected a positive time")
-        interval = end_time / 100 if history_interval is None else cards.finite(history_interval, "history_interval")
+        cards.positive(end_time, "end_time")
+        interval = end_time / 100 if history_interval is None else cards.positive(history_interval, "history_interval")
         if cards.integer(print_every, "print_every") < 1:
             raise ValueError(f"print_every is {print_every}, expected 1 or more cycles")
         lines = ["#RADIOSS ENGINE", f"/RUN/{self.name}/1", real(end_time), "/VERS/2022", f"/PRINT/-{print_every}", "/TFILE/4",
-                 real(interval), "/DT", reals(cards.finite(step_scale, "step_scale"), 0)]
+                 real(interval), "/DT", reals(cards.positive(step_scale, "step_scale"), 0)]
         if animation_interval is not None:
-            lines += ["/ANIM/DT", reals(0, cards.finite(animation_interval, "animation_interval"))]
+            lines += ["/ANIM/DT", reals(0, cards.positive(animation_interval, "animation_interval"))]
         if cards_text:
             lines += cards.block(cards_text, "cards_text")
         self._engine = lines
@@ -367,4 +371,4 @@ class ModelBuilder:
         cards.check_finite(birth=birth, death=death)
         group = self.group(nodes, title=title)
         return self._titled(keyword, keyword, id, title, integers(function, cards.direction(direction), 0, 0, group, 0, 0),
-                            reals(1, cards.finite(scale, "scale"), birth, death))
+                            reals(1, cards.nonzero(scale, "scale"), birth, death))

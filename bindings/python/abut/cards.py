@@ -82,6 +82,21 @@ def finite(value: float, name: str) -> float:
     return number
 
 
+def nonzero(value: float, name: str) -> float:
+    """A finite number other than 0, which the card would take for its default."""
+    number = finite(value, name)
+    if number == 0.0:
+        raise ValueError(f"{name} is 0, expected another number: a card takes 0 for its default value, not for none")
+    return number
+
+
+def positive(value: float, name: str) -> float:
+    number = finite(value, name)
+    if not number > 0.0:
+        raise ValueError(f"{name} is {value}, expected a positive number")
+    return number
+
+
 def vectors(value: ArrayLike, name: str) -> NDArray[np.float64]:
     """(N, 3) finite numbers."""
     array = np.asarray(value, dtype=np.float64)
