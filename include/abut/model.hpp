@@ -129,7 +129,7 @@ class Model {
  public:
   /// Reads NAME_0000.rad and the Engine decks beside it.
   /// @throws InputError with every finding when there is an error: a file that cannot be read is one; RunError when write_deck cannot be
-  ///         written, or the deck's form does not let it
+  ///         written, is one of the deck's own files, is asked for without orient, or the deck's form does not let it
   [[nodiscard]] static Model read(const std::filesystem::path& starter, const ReadOptions& options = {});
   /// The same from text in memory: the same validation, the same messages.
   /// @throws InputError as read(); RunError when write_deck is asked for

@@ -91,7 +91,12 @@ std::shared_ptr<const Model::Impl> load(const deck::DeckPair& pair, const std::f
   if (options.orient) {
     const std::vector<init::TurnedSurface> turned = init::orient_contacts(m->model);
     for (const init::TurnedSurface& t : turned) findings.add(init::to_diagnostic(m->model, t));
-    if (!options.write_deck.empty()) run::write_oriented_deck(path, options.write_deck, m->model, turned);
+    if (!options.write_deck.empty()) {
+      std::vector<std::string> decks = pair.starter.files;
+      decks.insert(decks.end(), pair.engine.files.begin(), pair.engine.files.end());
+      for (const deck::Deck& deck : pair.restarts) decks.insert(decks.end(), deck.files.begin(), deck.files.end());
+      run::write_oriented_deck(path, decks, options.write_deck, m->model, turned);
+    }
   }
   m->findings = findings.all();
   Fingerprint fingerprint;
@@ -113,6 +118,9 @@ std::shared_ptr<const Model::Impl> load(const deck::DeckPair& pair, const std::f
 }  // namespace
 
 Model Model::read(const std::filesystem::path& starter, const ReadOptions& options) {
+  if (!options.write_deck.empty() && !options.orient) {
+    throw RunError(fmt::format("nothing to write to '{}': --write-deck keeps what --orient auto turns", options.write_deck.string()));
+  }
   Diagnostics findings;
   const deck::DeckPair pair = deck::read(starter, findings);
   return Model(load(pair, starter, options, findings));

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/diagnostic.hpp"
+#include "output/files.hpp"
 
 namespace abut::run {
 
@@ -38,11 +39,13 @@ std::size_t card_line(const std::vector<std::string>& lines, std::size_t keyword
 
 }  // namespace
 
-void write_oriented_deck(const std::filesystem::path& starter, const std::filesystem::path& target, const model::Model& model,
-                         const std::vector<init::TurnedSurface>& turned) {
-  std::error_code unequal;
-  if (std::filesystem::equivalent(starter, target, unequal)) {
-    throw RunError(fmt::format("--write-deck would overwrite the deck it reads, {}: name another file", starter.string()));
+void write_oriented_deck(const std::filesystem::path& starter, const std::vector<std::string>& decks, const std::filesystem::path& target,
+                         const model::Model& model, const std::vector<init::TurnedSurface>& turned) {
+  for (const std::string& deck : decks) {
+    std::error_code unequal;
+    if (std::filesystem::equivalent(deck, target, unequal)) {
+      throw RunError(fmt::format("--write-deck would overwrite the deck it reads, {}: name another file", deck));
+    }
   }
   std::ifstream in(starter, std::ios::binary);
   std::vector<std::string> lines;
@@ -77,18 +80,17 @@ void write_oriented_deck(const std::filesystem::path& starter, const std::filesy
     ++next;
   }
 
-  std::ofstream out(target, std::ios::binary);
+  std::string text;
   bool written = false;
   for (const std::string& line : lines) {
     if (line.rfind("/END", 0) == 0 && !written) {
-      out << added;
+      text += added;
       written = true;
     }
-    out << line << '\n';
+    text += line + '\n';
   }
-  if (!written) out << added;
-  out.flush();
-  if (!out) throw RunError("cannot write " + target.string());
+  if (!written) text += added;
+  output::write_atomically(target, text);
 }
 
 }  // namespace abut::run

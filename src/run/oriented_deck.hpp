@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "init/contact_inspection.hpp"
@@ -11,8 +12,10 @@ namespace abut::run {
 
 /// A copy of `starter` in which each interface of `turned` names new /SURF/SEG surfaces that hold its segments as the model has
 /// them now (Irs/Irm 2: left as they are). Everything else is kept byte for byte.
-/// @throws RunError when an interface is defined in an include file or in a layout before version 50, or the file cannot be written
-void write_oriented_deck(const std::filesystem::path& starter, const std::filesystem::path& target, const model::Model& model,
-                         const std::vector<init::TurnedSurface>& turned);
+/// @param decks  the deck's files, Engine decks and includes with them: `target` is none of these
+/// @throws RunError when it is, when an interface is defined in an include file or in a layout before version 50, or the file cannot be
+///         written; what was there stays
+void write_oriented_deck(const std::filesystem::path& starter, const std::vector<std::string>& decks, const std::filesystem::path& target,
+                         const model::Model& model, const std::vector<init::TurnedSurface>& turned);
 
 }  // namespace abut::run

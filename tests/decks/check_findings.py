@@ -63,6 +63,52 @@ def expect(condition, what):
         print("not so:", what, file=sys.stderr)
 
 
+def write_deck(abut, deck, work):
+    """--write-deck leaves every file of its own deck alone, and what was in its place when it cannot write; it is never silent."""
+    name = os.path.basename(deck).removesuffix("_0000.rad")
+    folder = os.path.join(work, "own")
+    os.makedirs(os.path.join(folder, "parts"))
+    starter, engine, included = (os.path.join(folder, file) for file in (name + "_0000.rad", name + "_0001.rad", "parts/more.inc"))
+    with open(deck, encoding="latin-1") as file:
+        head, tail = file.read().split("/END", 1)
+    for path, content in ((starter, head + "#include parts/more.inc\n/END" + tail), (included, "# nothing\n"),
+                          (engine, open(deck.replace("_0000.rad", "_0001.rad"), encoding="latin-1").read()),
+                          (engine.replace("_0001", "_0002"), f"/RUN/{name}/2\n1e3\n")):
+        with open(path, "w", encoding="latin-1") as file:
+            file.write(content)
+    os.symlink(included, os.path.join(folder, "link"))
+
+    def files():
+        return {file.name: open(file.path, "rb").read() for place in (folder, os.path.join(folder, "parts"))
+                for file in os.scandir(place) if file.is_file()}
+
+    def written(target, *more, **options):
+        return subprocess.run([abut, "check", starter, *(more or ("--orient", "auto")), "--write-deck", target],
+                              capture_output=True, text=True, **options)
+
+    before = files()
+    for target in (starter, engine, engine.replace("_0001", "_0002"), included, os.path.join(folder, "parts", "..", name + "_0001.rad"),
+                   os.path.join(folder, "link")):
+        refused = written(target)
+        expect(refused.returncode == 1 and "would overwrite the deck it reads" in refused.stderr and files() == before,
+               f"--write-deck leaves {target} alone: {refused.stderr}")
+    target = os.path.join(work, "none")
+    silent = written(target, "--orient", "none")
+    expect(silent.returncode == 1 and "nothing to write" in silent.stderr and not os.path.exists(target),
+           f"--write-deck without anything to write says so: {silent.stderr}")
+    target = os.path.join(folder, "kept")
+    with open(target, "w") as file:
+        file.write("what was there")
+
+    def no_room():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+
+    full = written(target, preexec_fn=no_room)
+    expect(full.returncode == 1 and "cannot write" in full.stderr and open(target).read() == "what was there",
+           f"a full disk leaves what was there: {full.stderr}")
+
+
 def main():
     if len(sys.argv) != 3:
         print(__doc__, file=sys.stderr)
@@ -107,12 +153,7 @@ def main():
             found, status, document = check(fixed)
             expect(status == 0 and "contact.normals_away" not in found and "contact.mixed_orientation" not in found,
                    f"the deck that --write-deck wrote for {name} is sound: {status} {sorted(found)}")
-        same = os.path.join(work, "normals_away_0000.rad")
-        before = open(same, encoding="latin-1").read()
-        refused = subprocess.run([abut, "check", same, "--orient", "auto", "--write-deck", os.path.join(work, ".", "normals_away_0000.rad")],
-                                 capture_output=True, text=True)
-        expect(refused.returncode == 1 and "would overwrite the deck it reads" in refused.stderr
-               and open(same, encoding="latin-1").read() == before, f"--write-deck leaves its own deck alone: {refused.stderr}")
+        write_deck(abut, deck("normals_away"), work)
 
         def no_room():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)

@@ -164,7 +164,8 @@ void bind_model(py::module_& m) {
                   "Reads NAME_0000.rad and the Engine decks beside it.\n\n"
                   "orient: turn the segments of contact surfaces to face each other where that is unambiguous; write_deck: the Starter\n"
                   "deck with the turned surfaces goes to this file. run: Engine decks 1 to `run` are read.\n"
-                  "Raises InputError with every finding when there is an error.")
+                  "Raises InputError with every finding when there is an error; RunError when write_deck cannot be written, is one of the\n"
+                  "deck's own files, or is asked for without orient.")
       .def_static("from_text", &from_text, "starter"_a, "engines"_a, py::kw_only(), "name"_a = "deck", "orient"_a = false, "run"_a = 1,
                   "The same from text: `starter` holds what NAME_0000.rad would, `engines` is a list of what NAME_0001.rad, ... would.")
       .def_property_readonly("name", &Model::name, "NAME of NAME_0000.rad")
