@@ -41,7 +41,7 @@ struct RunSettings {
   Choices choices;                               ///< rule set and settings of interfaces
   std::filesystem::path output;                  ///< run folder (docs/guide/outputs.md); empty: no files are written
   int checkpoint_every = 0;                      ///< cycles between checkpoints in the run folder; 0: as /RFILE of the deck says
-  std::vector<ContactRecording> recordings;      ///< each interface at most once; not gone on with by a resumed run
+  std::vector<ContactRecording> recordings;      ///< each interface at most once; not gone on with by a resumed run, which warns of it
   int hash_every = 0;                            ///< cycles between state hashes in run.json, 0: none
   bool record_history = true;                    ///< keep the time history in memory: history()
   bool progress = false;                         ///< a line about the progress on standard error
@@ -53,7 +53,7 @@ struct RunSettings {
 struct ResumeSettings {
   std::filesystem::path deck;  ///< Starter deck; empty: where it was when the checkpoint was written
   int threads = 0;             ///< as in RunSettings
-  int checkpoint_every = -1;   ///< -1: as before
+  int checkpoint_every = -1;   ///< -1: as before; 0: as /RFILE of the deck says
   bool record_history = true;
   bool progress = false;
   const std::atomic<bool>* interrupt = nullptr;
@@ -83,17 +83,19 @@ class Run {
   using Callback = std::function<bool(Run&)>;
 
   /// Inspects the contacts, makes the first state, opens the files.
-  /// @throws InputError when the inspection finds errors (unless they are allowed); RunError when a file cannot be written, or a
-  ///         recording or choice is of an interface that is not there or cannot have it, or a recording asked for twice or without a run
-  ///         folder
+  /// What an earlier run of the same name has left in the run folder goes: checkpoints, manifest, report, call logs.
+  /// @throws InputError when the inspection finds errors (unless they are allowed); RunError when a file cannot be written, when another
+  ///         run that is not over writes in the folder, or a recording or choice is of an interface that is not there or cannot have it, or
+  ///         a recording asked for twice or without a run folder
   explicit Run(const Model& model, const RunSettings& settings = {});
   /// Goes on from the newest whole checkpoint of a run folder, with its files (docs/guide/restart.md): the same bits as if it had never
   /// stopped. When the run is finished, the next Engine deck takes over.
   /// @param folder  run folder, or a checkpoint file in it
-  /// @throws RunError when there is no usable checkpoint, or it is of another model, version or deck; InputError of the deck
+  /// @throws RunError when there is no usable checkpoint, or it is of another model, version or deck, when the files beside it are not
+  ///         what they were, or another run writes there: nothing is changed then; InputError of the deck
   [[nodiscard]] static Run resume(const std::filesystem::path& folder, const ResumeSettings& settings = {});
   /// A run of `model` that begins in the state of a checkpoint; its files, if any, begin there too.
-  /// @throws RunError when the checkpoint is not one of this model and these choices
+  /// @throws RunError when the checkpoint is not one of this model and these choices, or lies where the run's own will be
   [[nodiscard]] static Run load(const Model& model, const std::filesystem::path& checkpoint, const RunSettings& settings = {});
   /// Writes a checkpoint: the whole state, in a file that is complete or not there. It takes the place of a file of that name.
   /// @throws RunError when it cannot be written, or something else than a file is there; what was there stays

@@ -314,8 +314,14 @@ void Animation::write_index(const std::vector<double>& times) const {
 void Animation::persist(state::Archive& a) {
   wait_for_writer();
   a.growing(times_);
-  if (a.loading()) return;
-  for (; on_disk_ < times_.size(); ++on_disk_) sync_file(folder_.animation_state(static_cast<int>(on_disk_)));
+  if (a.loading()) {
+    on_disk_ = times_.size();
+    return;
+  }
+  for (; on_disk_ < times_.size(); ++on_disk_) {
+    const std::filesystem::path state = folder_.animation_state(static_cast<int>(on_disk_));
+    if (std::filesystem::exists(state)) sync_file(state);  // a state that the user has deleted is no reason to have no checkpoint
+  }
 }
 
 void Animation::end(const cycle::Outcome&) { wait_for_writer(); }

@@ -2,9 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -35,6 +39,52 @@ constexpr int open_mode = 0666;
 }  // namespace
 
 std::filesystem::path RunFolder::animation_state(int k) const { return animation_folder() / fmt::format("{}_{:05}.vtu", name, k); }
+
+std::vector<std::filesystem::path> contact_call_files(const RunFolder& folder) {
+  const std::string start = folder.name + "_contact_";
+  std::vector<std::filesystem::path> found;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.directory, none)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() != ".calls" || !stem.starts_with(start)) continue;
+    if (stem.find_first_not_of("0123456789", start.size()) == std::string::npos) found.push_back(entry.path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+void remove_earlier_run(const RunFolder& folder) {
+  std::vector<std::filesystem::path> stale = contact_call_files(folder);
+  for (auto path : {folder.checkpoint(), folder.previous_checkpoint(), folder.manifest(), folder.report()}) stale.push_back(path);
+  std::error_code error;
+  for (const auto& path : stale) {
+    if (!std::filesystem::remove(path, error) && error) fail("remove", path, error.value());
+  }
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+  create_folder(folder);
+  const std::filesystem::path file = folder / ".abut_lock";
+  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, open_mode);
+  if (descriptor_ < 0) fail("write", file, errno);
+  int error = 0;
+  while (error == 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) error = errno == EINTR ? 0 : errno;
+  if (error != EWOULDBLOCK) return;  // a file system that has no locks: nothing more can be done
+  ::close(descriptor_);
+  throw RunError(
+      fmt::format("cannot write in '{}': another abut is writing there (or, in a program, a Run that was not finished)", folder.string()));
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
 
 void create_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -155,6 +205,22 @@ std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
   }
 }
 
+namespace {
+
+/// Of the first `size` bytes of a file, which is at least as long.
+Fingerprint fingerprint_of_start(const std::filesystem::path& path, std::int64_t size) {
+  Fingerprint fingerprint;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 1 << 16> piece;
+  while (size > 0 && file.read(piece.data(), std::min<std::int64_t>(size, piece.size()))) {
+    fingerprint.add_bytes({piece.data(), static_cast<std::size_t>(file.gcount())});
+    size -= file.gcount();
+  }
+  return fingerprint;
+}
+
+}  // namespace
+
 AppendFile::AppendFile(std::filesystem::path path, Opening opening) : path_(std::move(path)) {
   const int start = opening == Opening::fresh ? O_CREAT | O_TRUNC : 0;
   descriptor_ = ::open(path_.c_str(), O_WRONLY | start | O_APPEND | O_CLOEXEC, open_mode);
@@ -166,7 +232,11 @@ AppendFile::~AppendFile() {
 }
 
 AppendFile::AppendFile(AppendFile&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), good_size_(other.good_size_) {}
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      good_size_(other.good_size_),
+      content_(other.content_),
+      has_rest_(other.has_rest_) {}
 
 AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
   if (this != &other) {
@@ -174,23 +244,35 @@ AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
     path_ = std::move(other.path_);
     descriptor_ = std::exchange(other.descriptor_, -1);
     good_size_ = other.good_size_;
+    content_ = other.content_;
+    has_rest_ = other.has_rest_;
   }
   return *this;
 }
 
+void AppendFile::cut_rest() {
+  if (!std::exchange(has_rest_, false)) return;
+  if (::ftruncate(descriptor_, good_size_) != 0) fail("write", path_, errno);
+}
+
 void AppendFile::append(std::string_view piece) {
+  cut_rest();
   if (const int error = write_all(descriptor_, piece); error != 0) {
     // Best effort: the message about the full disk matters more than a torn last line.
     [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, good_size_);
     fail("write", path_, error);
   }
   good_size_ += static_cast<long long>(piece.size());
+  content_.add_bytes(piece);
 }
 
 void AppendFile::persist(state::Archive& a) {
   std::int64_t size = good_size_;
+  std::uint64_t content = content_.value();
   a(size);
+  a(content);
   if (!a.loading()) {
+    cut_rest();
     if (::fsync(descriptor_) != 0 && errno != EINVAL) fail("write", path_, errno);
     return;
   }
@@ -199,12 +281,18 @@ void AppendFile::persist(state::Archive& a) {
     throw state::ArchiveError(
         fmt::format("'{}' is shorter than when the checkpoint was written ({} bytes, then {})", path_.string(), there, size));
   }
-  if (::ftruncate(descriptor_, size) != 0) fail("write", path_, errno);
+  content_ = fingerprint_of_start(path_, size);
+  if (content_.value() != content) {
+    throw state::ArchiveError(
+        fmt::format("'{}' was changed since the checkpoint was written: its first {} bytes are others", path_.string(), size));
+  }
   good_size_ = size;
+  has_rest_ = true;
 }
 
 void AppendFile::close() {
   if (descriptor_ < 0) return;
+  cut_rest();
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("write", path_, errno);
 }
 

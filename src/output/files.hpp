@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fingerprint.hpp"
 #include "state/archive.hpp"
 
 namespace abut::output {
@@ -36,6 +37,28 @@ struct RunFolder {
   /// Segments of the contact surfaces, as the deck has them.
   [[nodiscard]] std::filesystem::path contact_surfaces() const { return directory / (name + "_contact.vtu"); }
   [[nodiscard]] std::filesystem::path manifest() const { return directory / "run.json"; }
+  /// Where `abut report` puts its page.
+  [[nodiscard]] std::filesystem::path report() const { return directory / "report.html"; }
+};
+
+/// The call logs of this run that there are.
+[[nodiscard]] std::vector<std::filesystem::path> contact_call_files(const RunFolder& folder);
+
+/// What an earlier run of this name has left in the folder and a new one does not write anew at once: checkpoints, manifest, report, call
+/// logs. They would be taken for the new run's. @throws RunError
+void remove_earlier_run(const RunFolder& folder);
+
+/// The right to write in a run folder: of one run at a time, of this process or any other, as long as it lives.
+class FolderLock {
+ public:
+  /// Makes the folder when it is not there. @throws RunError when another run has it, or the folder cannot be written
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(FolderLock&& other) noexcept;
+  FolderLock& operator=(FolderLock&& other) noexcept;
+
+ private:
+  int descriptor_ = -1;
 };
 
 /// Creates a folder and those above it. @throws RunError when it cannot be made or its path is not a folder
@@ -115,15 +138,20 @@ class AppendFile {
 
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
   void append(std::string_view piece);  ///< @throws RunError
-  /// Writing: what is in the file so far is brought to the disk, its length noted. Reading: the file is cut to that length.
-  /// @throws state::ArchiveError when the file is shorter
+  /// Writing: what is in the file so far is brought to the disk, its length and fingerprint noted. Reading: the file is to go on from that
+  /// length; what is behind it goes when something is written, so that a resume that is refused changes nothing.
+  /// @throws state::ArchiveError when the file is shorter, or not what it was up to there
   void persist(state::Archive& a);
   void close();  ///< @throws RunError when the system reports a late write error
 
  private:
+  void cut_rest();
+
   std::filesystem::path path_;
   int descriptor_ = -1;
   long long good_size_ = 0;
+  Fingerprint content_;    ///< of the first good_size_ bytes
+  bool has_rest_ = false;  ///< the file may be longer: it was opened again
 };
 
 }  // namespace abut::output

@@ -67,7 +67,7 @@ void Listing::begin(const cycle::Snapshot& first) {
 
 void Listing::cycle(const cycle::Snapshot& now) {
   record_.cycle(now);
-  for (; said_ < info_.during->size(); ++said_) file_.append("  " + to_string((*info_.during)[said_].diagnostic) + "\n");
+  say_findings();
   if (!now.listing_due) return;
   const state::Balance& b = *now.balance;
   std::string text;
@@ -80,6 +80,10 @@ void Listing::cycle(const cycle::Snapshot& now) {
   file_.append(text);
 }
 
+void Listing::say_findings() {
+  for (; said_ < info_.during->size(); ++said_) file_.append("  " + to_string((*info_.during)[said_].diagnostic) + "\n");
+}
+
 void Listing::persist(state::Archive& a) {
   file_.persist(a);
   record_.persist(a);
@@ -89,6 +93,7 @@ void Listing::persist(state::Archive& a) {
 }
 
 void Listing::end(const cycle::Outcome& outcome) {
+  say_findings();
   const state::Balance& b = record_.balance();
   std::string text = fmt::format("\nThe run {}\n", outcome_text(outcome));
   text += fmt::format("Wall time   {:.2f} s, {:.4g} element-cycles/s\n", record_.wall_seconds(), record_.rate(outcome.cycles));

@@ -22,6 +22,8 @@ class Listing final : public cycle::Sink {
   void persist(state::Archive& a) override;
 
  private:
+  void say_findings();
+
   AppendFile file_;
   RunInfo info_;
   std::size_t said_ = 0;  ///< findings of the run that are in the file

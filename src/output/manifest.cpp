@@ -24,12 +24,17 @@ std::string fingerprint_text(std::uint64_t fingerprint) { return fmt::format("{:
 
 }  // namespace
 
-bool manifest_is_of(const RunFolder& folder, std::uint64_t model_fingerprint) {
+std::string manifest_difference(const RunFolder& folder, const RunInfo& info) {
   std::ifstream file(folder.manifest());
   const Json j = Json::parse(file, nullptr, false);
-  if (!j.is_object()) return true;
-  const Json::json_pointer place("/model/fingerprint");
-  return !j.contains(place) || j[place] == fingerprint_text(model_fingerprint);
+  if (!j.is_object()) return {};
+  const auto differs = [&j](const char* place, const Json& value) {
+    const Json::json_pointer pointer(place);
+    return j.contains(pointer) && j[pointer] != value;
+  };
+  if (differs("/model/fingerprint", fingerprint_text(info.model_fingerprint))) return "another model";
+  if (differs("/settings/profile", info.profile)) return "another rule set";
+  return differs("/settings/interfaces", info.interfaces) ? "other settings of interfaces" : "";
 }
 
 bool manifest_says_running(const RunFolder& folder) {

@@ -13,8 +13,9 @@
 
 namespace abut::output {
 
-/// False when a folder's run.json says that its results are those of another model; true also when there is none that says it.
-[[nodiscard]] bool manifest_is_of(const RunFolder& folder, std::uint64_t model_fingerprint);
+/// In what a folder's run.json says that its results are of another run than this: "another model", "another rule set", "other settings of
+/// interfaces"; empty where they are alike, so that the results have the same bits, and when there is no run.json that says it.
+[[nodiscard]] std::string manifest_difference(const RunFolder& folder, const RunInfo& info);
 
 /// A folder's run.json says that its run has not ended: it goes on, or was killed.
 [[nodiscard]] bool manifest_says_running(const RunFolder& folder);

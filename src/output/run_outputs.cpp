@@ -18,6 +18,7 @@ std::vector<cycle::Sink*> add_watches(SinkSet& sinks, const RunInfo& info) {
 std::vector<cycle::Sink*> add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info,
                                           std::function<std::vector<PhaseTime>()> timings) {
   create_folder(folder.directory);
+  if (info.opening() == Opening::fresh) remove_earlier_run(folder);
   return {sinks.add(std::make_unique<Listing>(folder, info)), sinks.add(std::make_unique<TimeHistory>(folder, info.opening())),
           sinks.add(std::make_unique<Animation>(folder, info.opening())),
           sinks.add(std::make_unique<Manifest>(folder, info, std::move(timings)))};

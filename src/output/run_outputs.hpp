@@ -11,8 +11,8 @@
 
 namespace abut::output {
 
-/// Creates the folder and adds the sinks that fill it: listing, time history, animation, manifest (last, so that it names what
-/// the others have closed). @throws RunError naming the path and the reason
+/// Creates the folder, removes what an earlier run has left there unless that goes on, and adds the sinks that fill it: listing, time
+/// history, animation, manifest (last, so that it names what the others have closed). @throws RunError naming the path and the reason
 /// @return the sinks that have files; their persist() says where a resumed run goes on
 std::vector<cycle::Sink*> add_run_outputs(SinkSet& sinks, const RunFolder& folder, const RunInfo& info,
                                           std::function<std::vector<PhaseTime>()> timings);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -135,6 +137,9 @@ void Run::Impl::restore_outputs(run::Checkpoint& from, bool resume) {
   unpack(files, [this](state::Archive& part) {
     for (cycle::Sink* sink : files_) sink->persist(part);
   });
+  for (const std::filesystem::path& log : output::contact_call_files({settings.output, model.name()})) {
+    tell("run.recording_stopped", "a run that goes on, also with a later Engine deck, is not recorded: this call log ends before it", log);
+  }
 }
 
 void Run::Impl::keep_checkpoint() {
@@ -145,12 +150,8 @@ void Run::Impl::keep_checkpoint() {
   } catch (const RunError& error) {
     if (std::exchange(told_checkpoint, true)) return;
     // The run itself is well: it goes on, and the checkpoint that is there stays.
-    Diagnostic d{Severity::warning,
-                 "run.no_checkpoint",
-                 {},
-                 fmt::format("at time {:.6g} (cycle {}): no checkpoint was written: {}", cycle->state().times.t, cycle->state().times.cycle,
-                             error.what())};
-    info.during->push_back({std::move(d), 0, cycle->state().times.t, cycle->state().times.cycle, 0.0, {}, {}});
+    tell("run.no_checkpoint", fmt::format("at time {:.6g} (cycle {}): no checkpoint was written: {}", cycle->state().times.t,
+                                          cycle->state().times.cycle, error.what()));
   }
 }
 
@@ -165,6 +166,12 @@ Run Run::load(const Model& model, const std::filesystem::path& checkpoint, const
         !std::ranges::equal(from.info.interfaces, settings.choices.interfaces, same)) {
       refuse(checkpoint, "it was written with another rule set or other settings of interfaces");
     }
+    const output::RunFolder folder{settings.output, model.name()};
+    std::error_code none;
+    for (const std::filesystem::path& gone : {folder.checkpoint(), folder.previous_checkpoint()}) {
+      if (!settings.output.empty() && std::filesystem::equivalent(checkpoint, gone, none))
+        refuse(checkpoint, "a new run in its folder would remove it: name another folder, or resume the run");
+    }
     return Run(std::make_unique<Impl>(model, settings, &from, false));
   } catch (const state::ArchiveError& error) { refuse(checkpoint, error.what()); }
 }
@@ -177,21 +184,27 @@ struct Candidates {
 
 Candidates find_checkpoints(const std::filesystem::path& place) {
   std::error_code error;
-  if (std::filesystem::is_regular_file(place, error)) return {place.parent_path(), place, {}};
+  if (std::filesystem::is_regular_file(place, error)) return {place.has_parent_path() ? place.parent_path() : ".", place, {}};
   if (!std::filesystem::is_directory(place, error)) refuse(place, "there is no such run folder");
   Candidates found{place, {}, {}};
-  int count = 0;
+  std::set<std::string> names;  // a run's own name may end in _previous
   for (const auto& entry : std::filesystem::directory_iterator(place, error)) {
-    if (entry.path().extension() != ".rst") continue;
-    if (entry.path().stem().string().ends_with("_previous")) {
-      found.previous = entry.path();
+    if (entry.path().extension() == ".rst") names.insert(entry.path().stem().string());
+  }
+  const auto of_the_one_before = [&names](const std::string& name) {
+    constexpr std::string_view ending = "_previous";
+    return name.ends_with(ending) && names.contains(name.substr(0, name.size() - ending.size()));
+  };
+  int count = 0;
+  for (const std::string& name : names) {
+    if (of_the_one_before(name)) {
+      found.previous = place / (name + ".rst");
     } else {
-      found.newest = entry.path();
+      found.newest = place / (name + ".rst");
       ++count;
     }
   }
   if (count > 1) refuse(place, "it holds checkpoints of several runs; name one of the .rst files");
-  if (found.newest.empty()) std::swap(found.newest, found.previous);
   if (found.newest.empty()) refuse(place, "there is no checkpoint in it (--checkpoint-every, /RFILE)");
   return found;
 }
@@ -228,12 +241,18 @@ Model model_of(const run::CheckpointInfo& info, const std::filesystem::path& che
 }  // namespace
 
 Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted) {
+  // The name of the newest checkpoint may change until this run alone writes in the folder.
+  output::FolderLock lock(find_checkpoints(place).folder);
   const Candidates candidates = find_checkpoints(place);
   const auto from_file = [&](const std::filesystem::path& path) {
     run::Checkpoint from(path);
     const run::CheckpointInfo& info = from.info;
-    if (!output::manifest_is_of({candidates.folder, info.name}, info.fingerprint)) {
-      refuse(path, fmt::format("it is of another model ('{}') than the results in this folder", info.name));
+    output::RunInfo of_checkpoint;
+    of_checkpoint.model_fingerprint = info.fingerprint;
+    of_checkpoint.profile = info.reference ? "reference" : "standard";
+    of_checkpoint.interfaces = info.interfaces;
+    if (const std::string other = output::manifest_difference({candidates.folder, info.name}, of_checkpoint); !other.empty()) {
+      refuse(path, fmt::format("it is of {} ('{}') than the results in this folder", other, info.name));
     }
     const Model model = model_of(info, path, wanted.deck, !output::manifest_says_running({candidates.folder, info.name}));
     RunSettings settings;
@@ -247,7 +266,9 @@ Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted
     settings.progress = wanted.progress;
     settings.allow_findings = true;  // they were accepted, or there were none, when the run began
     settings.interrupt = wanted.interrupt;
-    return std::make_unique<Impl>(model, settings, &from, true);
+    auto impl = std::make_unique<Impl>(model, settings, &from, true);
+    impl->lock = std::move(lock);
+    return impl;
   };
   std::string damage;
   try {
@@ -260,11 +281,9 @@ Run Run::resume(const std::filesystem::path& place, const ResumeSettings& wanted
     std::unique_ptr<Impl> impl = from_file(candidates.previous);
     // The whole one takes the place of the damaged one: from here on it is the one that the next checkpoint keeps.
     std::filesystem::rename(candidates.previous, candidates.newest);
-    Diagnostic d{Severity::warning,
-                 "run.previous_checkpoint",
-                 {candidates.newest.string(), 0, {}, {}, 0, 0},
-                 fmt::format("{}; the run goes on from the checkpoint before it, of cycle {}", damage, impl->cycle->state().times.cycle)};
-    impl->info.during->push_back({std::move(d), 0, impl->cycle->state().times.t, impl->cycle->state().times.cycle, 0.0, {}, {}});
+    impl->tell("run.previous_checkpoint",
+               fmt::format("{}; the run goes on from the checkpoint before it, of cycle {}", damage, impl->cycle->state().times.cycle),
+               candidates.newest);
     return Run(std::move(impl));
   } catch (const state::ArchiveError& error) {
     refuse(place, fmt::format("{}: {}; {}: {}", candidates.newest.filename().string(), damage, candidates.previous.filename().string(),

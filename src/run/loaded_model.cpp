@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/fingerprint.hpp"
 #include "init/contact_inspection.hpp"
 #include "init/contact_setup.hpp"
 #include "model/build.hpp"
@@ -17,20 +18,6 @@
 
 namespace abut {
 namespace {
-
-/// FNV-1a over bytes.
-class Fingerprint {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) byte(static_cast<unsigned char>(c));
-    byte(0);
-  }
-  void byte(unsigned char b) { hash_ = (hash_ ^ b) * 0x100000001b3ULL; }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
-};
 
 template <std::size_t N>
 ElementTable table_of(ElementKind kind, std::span<const Id> ids, const model::Elements<N>& e) {

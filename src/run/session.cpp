@@ -66,7 +66,6 @@ void check_settings(const Model& model, const RunSettings& settings) {
 
 Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoint* from, bool resume)
     : model(model_), settings(settings_) {
-  if (settings.checkpoint_every <= 0) settings.checkpoint_every = model.impl().model.controls.restart_every;
   if (settings.threads <= 0) settings.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   check_settings(model, settings);
   model = run::projected(model, settings.choices);
@@ -117,6 +116,7 @@ Run::Impl::Impl(const Model& model_, const RunSettings& settings_, run::Checkpoi
 void Run::Impl::open_outputs() {
   watches_ = output::add_watches(sinks, info);
   if (!settings.output.empty()) {
+    if (!info.resumed) lock.emplace(settings.output);
     files_ = output::add_run_outputs(sinks, {settings.output, model.name()}, info, [this] { return timings(); });
   }
   for (std::size_t k = 0; k < call_logs_.size(); ++k) {
@@ -126,6 +126,15 @@ void Run::Impl::open_outputs() {
   }
   if (settings.record_history) memory_ = sinks.add(std::make_unique<run::MemoryHistory>(history, model.impl().model));
   if (settings.progress) sinks.add(std::make_unique<output::Progress>(output::console_progress()));
+}
+
+void Run::Impl::tell(std::string code, std::string text, const std::filesystem::path& file) {
+  Diagnostic d{Severity::warning, std::move(code), {file.string(), 0, {}, {}, 0, 0}, std::move(text)};
+  info.during->push_back({std::move(d), 0, cycle->state().times.t, cycle->state().times.cycle, 0.0, {}, {}});
+}
+
+int Run::Impl::checkpoint_every() const {
+  return settings.checkpoint_every > 0 ? settings.checkpoint_every : model.impl().model.controls.restart_every;
 }
 
 std::vector<PhaseTime> Run::Impl::timings() const {
@@ -153,7 +162,7 @@ bool Run::Impl::advance() {
   }
   if (cycle->finished()) {
     finish(Outcome::Kind::finished, "the final time is reached");
-  } else if (settings.checkpoint_every > 0 && cycle->state().times.cycle % settings.checkpoint_every == 0) {
+  } else if (checkpoint_every() > 0 && cycle->state().times.cycle % checkpoint_every() == 0) {
     keep_checkpoint();
   }
   return true;
@@ -164,6 +173,14 @@ const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
   if (kind != Outcome::Kind::failed) keep_checkpoint();
   over = true;
   outcome = {kind, std::string(message), cycle->state().times.cycle, cycle->state().times.t};
+  for (std::size_t k = 0; k < call_logs_.size(); ++k) {
+    if (call_logs_[k].tellp() != 0) continue;
+    const ContactRecording& r = settings.recordings[k];
+    tell("run.nothing_recorded",
+         fmt::format("the call log of interface {} is empty: the run has no call of it between times {:.6g} and {:.6g}", r.interface_id,
+                     r.from, r.to));
+  }
+  const std::optional<output::FolderLock> until_the_files_end = std::exchange(lock, {});
   try {
     sinks.end(outcome);
   } catch (const RunError& error) {

@@ -7,12 +7,14 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "abut/run.hpp"
 #include "cycle/cycle.hpp"
+#include "output/files.hpp"
 #include "output/run_info.hpp"
 #include "output/sink_set.hpp"
 #include "run/loaded_model.hpp"
@@ -30,7 +32,8 @@ struct CheckpointInfo {
   std::int32_t run = 1;
   bool reference = false, orient = false, allow_findings = false;
   std::vector<std::string> interfaces;  ///< choices, to_string(InterfaceChoice)
-  std::int32_t hash_every = 0, checkpoint_every = 0;
+  std::int32_t hash_every = 0;
+  std::int32_t checkpoint_every = 0;  ///< as the caller wants it: 0, as the Engine deck of the moment says
   std::int64_t cycle = 0;
   double time = 0.0;
   std::uint64_t hash = 0;  ///< Cycle::hash() of the state that follows
@@ -52,7 +55,7 @@ struct Checkpoint {
 
 struct Run::Impl {
   /// @param from  the state to begin with; null: the model's
-  /// @param resume  the files of the checkpoint's run go on
+  /// @param resume  the files of the checkpoint's run go on; the caller has the lock of the folder
   Impl(const Model& model, const RunSettings& settings, run::Checkpoint* from = nullptr, bool resume = false);
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -61,6 +64,8 @@ struct Run::Impl {
   const Outcome& finish(Outcome::Kind kind, std::string_view message);
   /// @param previous  keeps what was at `path`; empty: that goes
   void save(const std::filesystem::path& path, const std::filesystem::path& previous);
+  /// A warning of the run itself, now. @param file  that it is about; may be empty
+  void tell(std::string code, std::string text, const std::filesystem::path& file = {});
   [[nodiscard]] std::vector<PhaseTime> timings() const;
 
   Model model;
@@ -68,6 +73,7 @@ struct Run::Impl {
   std::vector<PhaseTime> before;  ///< phases before the first cycle
   std::unique_ptr<cycle::Cycle> cycle;
   output::RunInfo info;
+  std::optional<output::FolderLock> lock;  ///< of the run folder, until the run is over
   output::SinkSet sinks;
   History history;
   Outcome outcome;
@@ -79,6 +85,7 @@ struct Run::Impl {
   void open_outputs();
   void restore_outputs(run::Checkpoint& from, bool resume);
   void keep_checkpoint();
+  [[nodiscard]] int checkpoint_every() const;  ///< cycles; 0: never
   [[nodiscard]] run::CheckpointInfo checkpoint_info();
 
   std::vector<cycle::Sink*> watches_;

@@ -82,8 +82,8 @@ class Case:
         return [self.abut, "run", self.deck, "-o", folder, "--quiet", "--threads", str(threads), "--hash-every", str(HASH_EVERY),
                 "--checkpoint-every", str(CHECKPOINT_EVERY)]
 
-    def run(self, folder, threads=2, **options):
-        return call(*self.command(folder, threads), **options)
+    def run(self, folder, *more, threads=2, **options):
+        return call(*self.command(folder, threads), *more, **options)
 
     def resume(self, folder, *more, threads=2, **options):
         return call(self.abut, "resume", folder, "--quiet", "--threads", threads, *more, **options)

@@ -238,6 +238,9 @@ def test_a_run_folder_is_resumed(tmp_path):
     np.testing.assert_array_equal(abut.History.read(tmp_path / "out").table, abut.History.read(tmp_path / "whole").table)
     with pytest.raises(abut.RunError):
         abut.Run.resume(tmp_path / "deck")
+    with pytest.raises(abut.RunError, match="a new run in its folder would remove it"):
+        abut.Run.load(abut.Model.read(deck), tmp_path / "out" / "twoblocks.rst", output=tmp_path / "out")
+    assert (tmp_path / "out" / "twoblocks.rst").exists()
 
 
 def test_a_gradual_start_pushes_an_overlap_apart_over_its_time():
@@ -268,6 +271,23 @@ def test_finish_closes_the_files(tmp_path):
     assert run.is_over and run.output == tmp_path
     assert json.loads((tmp_path / "run.json").read_text())
     assert len(abut.History.read(tmp_path).time) == len(run.history.time)
+
+
+def test_one_run_at_a_time_writes_in_a_folder(tmp_path):
+    older = abut.Run(two_blocks().build(), output=tmp_path, threads=1, checkpoint_every=2)
+    older.advance(5)
+    listing = (tmp_path / "twoblocks.out").read_text()
+    for newer in (lambda: abut.Run(two_blocks().build(), output=tmp_path), lambda: abut.Run.resume(tmp_path)):
+        with pytest.raises(abut.RunError, match="a Run that was not finished"):
+            newer()
+    assert (tmp_path / "twoblocks.out").read_text() == listing
+    older.finish()
+    run = abut.Run(two_blocks().build(), output=tmp_path, threads=1)
+    run.advance_to_end()
+    manifest = (tmp_path / "run.json").read_text()
+    del older, run
+    gc.collect()
+    assert (tmp_path / "run.json").read_text() == manifest and json.loads(manifest)["outcome"]["kind"] == "finished"
 
 
 def test_other_threads_go_on_meanwhile():

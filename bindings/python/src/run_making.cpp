@@ -105,7 +105,9 @@ void bind_making(RunClass& run) {
           "threads: at most 4096, 0 for all. rules: 'standard' or 'reference'.\n"
           "interfaces: {id or 'all': 'KEY=VALUE,...'}, settings of interfaces of TYPE3 and TYPE5 as --interface takes them: law, gap,\n"
           "initial, damping, depth, start.\n"
-          "output: run folder; None: no files. checkpoint_every: cycles between checkpoints in it, 0: as /RFILE of the deck says.\n"
+          "output: run folder; None: no files. What an earlier run of the same name left there to be resumed goes; another Run that was "
+          "not\n"
+          "finished must not write there. checkpoint_every: cycles between checkpoints in it, 0: as /RFILE of the deck says.\n"
           "hash_every: cycles between state hashes in run.json. allow_findings: run although the inspection found errors.\n"
           "record_contact: {interface id: (from, to) or None} keeps all inputs of an interface between two times, or all the time, in\n"
           "NAME_contact_ID.calls in the run folder, for contact.replay().\n"
@@ -122,7 +124,10 @@ void bind_making(RunClass& run) {
           "record_history"_a = true, "progress"_a = false,
           "Goes on from the newest whole checkpoint of a run folder, with its files: the same bits as if it had never stopped.\n\n"
           "folder: run folder or a checkpoint file in it. deck: Starter deck, None: where it was. checkpoint_every: None: as before.\n"
-          "Raises RunError when there is no usable checkpoint, or it is of another model, version or deck; InputError of the deck.")
+          "history: the rows from the checkpoint on, where the run that wrote it kept none in memory (as the abut program does);\n"
+          "History.read(folder) has all.\n"
+          "Raises RunError when there is no usable checkpoint, when it is of another model, version or deck, or another run writes in the\n"
+          "folder; InputError of the deck.")
       .def("save", &save_run, "checkpoint"_a,
            "Writes a checkpoint: the whole state, in a file that is complete or not there, in the place of a file of that name.\n\n"
            "Raises RunError when it cannot be written, or when something else than a file is there (a folder, a device).");

@@ -89,6 +89,64 @@ TEST(AppendFile, APieceThatDoesNotFitIsTakenBack) {
   EXPECT_EQ(slurp(path), row + row + "more");
 }
 
+/// A file that a checkpoint counts on: `rows` in it then, `later` behind them.
+std::vector<std::byte> checkpoint_of(const std::filesystem::path& path, const std::string& rows, const std::string& later) {
+  AppendFile file(path);
+  file.append(rows);
+  state::Archive written;
+  file.persist(written);
+  file.append(later);
+  return {written.bytes().begin(), written.bytes().end()};
+}
+
+TEST(AppendFile, WhatIsBehindTheCheckpointGoesWhenSomethingIsWritten) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "rows";
+  const std::vector<std::byte> checkpoint = checkpoint_of(path, "1\n2\n", "3\n");
+  const auto opened = [&] {
+    AppendFile file(path, Opening::resumed);
+    state::Archive a{std::span<const std::byte>(checkpoint)};
+    file.persist(a);
+    return file;
+  };
+  { const AppendFile file = opened(); }
+  EXPECT_EQ(slurp(path), "1\n2\n3\n");  // nothing was written: as after a resume that is refused
+  AppendFile file = opened();
+  file.append("x\n");
+  file.append("y\n");
+  file.close();
+  EXPECT_EQ(slurp(path), "1\n2\nx\ny\n");
+  AppendFile ended = opened();
+  ended.close();
+  EXPECT_EQ(slurp(path), "1\n2\n");  // and a run that ends without another row ends there
+}
+
+TEST(AppendFile, AFileThatIsNotWhatItWasIsRefusedAndLeftAsItIs) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "rows";
+  const std::vector<std::byte> checkpoint = checkpoint_of(path, "1\n2\n", "3\n");
+  for (const std::string changed : {"1\r\n2\r\n3\r\n", "1\n4\n3\n", "1\n2"}) {
+    write_atomically(path, changed);
+    AppendFile file(path, Opening::resumed);
+    state::Archive a{std::span<const std::byte>(checkpoint)};
+    EXPECT_THROW(file.persist(a), state::ArchiveError) << changed;
+    file.close();
+    EXPECT_EQ(slurp(path), changed);
+  }
+}
+
+TEST(FolderLock, OneAtATime) {
+  const test::TemporaryFolder temporary;
+  const auto folder = temporary.path() / "new" / "run";
+  {
+    const FolderLock lock(folder);
+    EXPECT_THROW(FolderLock{folder}, RunError);
+  }
+  FolderLock first(folder);
+  const FolderLock second = std::move(first);
+  EXPECT_THROW(FolderLock{folder}, RunError);
+}
+
 TEST(CreateFolder, SaysWhichPathAndWhy) {
   const test::TemporaryFolder folder;
   write_atomically(folder.path() / "file", "");
