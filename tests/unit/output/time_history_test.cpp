@@ -2,8 +2,11 @@
 #include "output/time_history.hpp"
 
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "core/diagnostic.hpp"
+#include "model/th_variables.hpp"
 #include "scene.hpp"
 
 namespace abut::output {
@@ -262,6 +265,49 @@ TEST_F(TimeHistoryTest, VariablesThatAreNotComputedAreNamedOnceAndLeftOut) {
   const auto r = row();
   EXPECT_FALSE(r.contains("PART/11/HEAT"));
   EXPECT_TRUE(r.contains("PART/22/IE"));
+}
+
+/// Columns that docs/guide/outputs.md explains, by kind: "`NODE/31/X`, `Y`" in the first cell of a row.
+std::map<std::string, std::set<std::string>> explained_columns() {
+  std::map<std::string, std::set<std::string>> all;
+  std::ifstream page(ABUT_SOURCE_DIR "/docs/guide/outputs.md");
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| `")) continue;
+    const std::string cell = line.substr(2, line.find(" | ", 2) - 2);
+    std::string kind;
+    for (std::size_t at = cell.find('`'); at != std::string::npos; at = cell.find('`', at)) {
+      const std::size_t end = cell.find('`', at + 1);
+      const std::string word = cell.substr(at + 1, end - at - 1);
+      if (kind.empty()) kind = word.substr(0, word.find('/'));
+      all[kind].insert(word.substr(word.rfind('/') + 1));
+      at = end + 1;
+    }
+  }
+  return all;
+}
+
+TEST_F(TimeHistoryTest, EveryColumnIsExplainedInTheGuide) {
+  using model::ThKind;
+  for (const auto& [kind, id, index] : {std::tuple<ThKind, Id, Index>{ThKind::node, 105, 4},
+                                        {ThKind::part, 22, 1},
+                                        {ThKind::shell, 31, 0},
+                                        {ThKind::sh3n, 32, 0},
+                                        {ThKind::brick, 42, 1},
+                                        {ThKind::inter, 3, 0},
+                                        {ThKind::rwall, 5, 0},
+                                        {ThKind::rbody, 6, 0},
+                                        {ThKind::section, 8, 0},
+                                        {ThKind::accelerometer, 9, 0}}) {
+    scene_.model.th_requests.push_back(request(kind, id, index, model::th_variables(kind)));
+  }
+  const auto explained = explained_columns();
+  const std::vector<HistoryColumn> columns = make_history_columns(scene_.model, ElementLookup(scene_.model, scene_.groups)).columns;
+  EXPECT_GT(columns.size(), 150U);
+  for (const HistoryColumn& column : columns) {
+    const std::string kind = column.name.substr(0, column.name.find('/'));
+    const auto found = explained.find(kind);
+    EXPECT_TRUE(found != explained.end() && found->second.contains(column.name.substr(column.name.rfind('/') + 1))) << column.name;
+  }
 }
 
 TEST_F(TimeHistoryTest, NoColumnTwice) {
