@@ -23,6 +23,10 @@ int report_command(const ReportArguments& arguments) {
   const report::Written w =
       report::write_report(arguments.run, target, page, arguments.all_fields ? report::Fields::all : report::Fields::automatic);
   for (const std::string& state : w.left_out) fmt::print(stderr, "abut: warning: {}; it is left out\n", state);
+  if (w.states == 0) {
+    fmt::print(stderr, "abut: warning: there is no animation state in {} (/ANIM/DT of the Engine deck): the page has no picture\n",
+               arguments.run.string());
+  }
   if (!arguments.quiet) {
     fmt::print("{}: {} states, {} elements, {} faces shown, {:.1f} MB; open it in a browser\n", target.string(), w.states, w.elements,
                w.faces, static_cast<double>(w.bytes) / 1e6);

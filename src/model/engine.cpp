@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "deck/text.hpp"
 #include "model/animation_names.hpp"
@@ -41,6 +42,11 @@ class EngineReader {
     if (!has_run_) {
       c_.diagnostics->error("engine.missing_run", place,
                             fmt::format("the Engine deck has no /RUN/name/{} with the final time on the line below", run_));
+    }
+    if (has_run_ && run_ == 1 && k_.history_interval == infinity && k_.animation_interval == infinity) {
+      c_.diagnostics->note("engine.few_outputs", place,
+                           "neither /TFILE nor /ANIM/DT gives an interval: the time history has a first and a last row, and there is no "
+                           "animation");
     }
     if (!refused_.empty()) {
       c_.diagnostics->error(
@@ -155,7 +161,12 @@ class EngineReader {
 
   bool read_run(const deck::Block& block) {
     has_run_ = true;
-    k_.run_name = std::string(block.word(1));
+    const std::string name = std::exchange(k_.run_name, std::string(block.word(1)));
+    if (run_ > 1 && !same_word(k_.run_name, name)) {
+      c_.diagnostics->error(
+          "engine.bad_run", engine_.place(block),
+          fmt::format("'{}' is another run than '{}', which this one continues; write /RUN/{}/{}", k_.run_name, name, name, run_));
+    }
     if (!block.word(2).empty() || run_ > 1) {
       const auto number = deck::parse_integer(block.word(2));
       if (!number || *number != run_) {

@@ -79,7 +79,8 @@ std::shared_ptr<const Model::Impl> load(const deck::DeckPair& pair, const std::f
     const std::vector<init::TurnedSurface> turned = init::orient_contacts(m->model);
     for (const init::TurnedSurface& t : turned) findings.add(init::to_diagnostic(m->model, t));
     if (!options.write_deck.empty()) {
-      std::vector<std::string> decks = pair.starter.files;
+      std::vector<std::string> decks{path.string()};
+      decks.insert(decks.end(), pair.starter.files.begin(), pair.starter.files.end());
       decks.insert(decks.end(), pair.engine.files.begin(), pair.engine.files.end());
       for (const deck::Deck& deck : pair.restarts) decks.insert(decks.end(), deck.files.begin(), deck.files.end());
       run::write_oriented_deck(path, decks, options.write_deck, m->model, turned);

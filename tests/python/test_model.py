@@ -73,6 +73,15 @@ def test_every_fault_of_a_deck_at_once():
     assert str(young) in str(caught.value) and "faulty_0000.rad" in str(young)
 
 
+def test_a_later_engine_deck_of_another_run():
+    b = two_blocks()
+    def later(name):
+        return abut.Model.from_text(b.starter_text(), [b.engine_text(), f"/RUN/{name}/2\n1e3\n"], run=2)
+    assert later(b.name).run_number == 2 and later(b.name.upper()).run_number == 2
+    with pytest.raises(abut.InputError, match=f"'other' is another run than '{b.name}'.*; write /RUN/{b.name}/2"):
+        later("other")
+
+
 def test_a_file_that_is_not_there():
     with pytest.raises(abut.InputError, match="nowhere_0000.rad"):
         abut.Model.read("nowhere_0000.rad")

@@ -6,6 +6,7 @@ usage: check_command.py ABUT RUN_FOLDER
 Exit status 77 when this abut was built without the report.
 """
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -32,6 +33,11 @@ def main():
         assert "default-src 'none'" in text
         assert not re.search(r"<(script|link|img|iframe)[^>]+(src|href)=", text), "loads something"
         assert not list(Path(folder).glob("*.tmp*")), "a temporary file is left"
+
+        bare = Path(folder) / "bare"
+        shutil.copytree(run, bare, ignore=shutil.ignore_patterns("*.pvd", "*_anim"))
+        code, said = call(bare, "-o", page)
+        assert code == 0 and "there is no animation state" in said and "/ANIM/DT" in said, said
 
         code, said = call(folder)
         assert code == 1 and "run.json" in said, said

@@ -118,11 +118,19 @@ TEST(Engine, RigidBodiesAreSwitchedByTheirMainNodes) {
 }
 
 TEST(Engine, HarmlessKeywordsAreSkippedWithANote) {
-  const Built b =
-      build_engine("/RUN/a/1\n1\n/MON/ON\n/PARITH/ON\n/VERS/2019\n/H3D/DT\n0 1\n/H3D/ELEM/VONM\n/PROC/4\n/OUTP/DT\n0 1\n/ATFILE\n1\n");
+  const Built b = build_engine(
+      "/RUN/a/1\n1\n/TFILE\n1\n/MON/ON\n/PARITH/ON\n/VERS/2019\n/H3D/DT\n0 1\n/H3D/ELEM/VONM\n/PROC/4\n/OUTP/DT\n0 1\n/ATFILE\n1\n");
   EXPECT_EQ(b.messages(),
             (std::vector<std::string>{
                 "deck_0001.rad: note: these keywords do not change the mechanics and are skipped: /ATFILE, /H3D, /OUTP, /PROC"}));
+}
+
+TEST(Engine, ADeckWithoutOutputsSaysSo) {
+  EXPECT_EQ(build_engine("/RUN/a/1\n1\n").messages(),
+            std::vector<std::string>{"deck_0001.rad: note: neither /TFILE nor /ANIM/DT gives an interval: the time history has a first and "
+                                     "a last row, and there is no animation"});
+  EXPECT_TRUE(build_engine("/RUN/a/1\n1\n/TFILE\n0.1\n").messages().empty());
+  EXPECT_TRUE(build_engine("/RUN/a/1\n1\n/ANIM/DT\n0 0.1\n").messages().empty());
 }
 
 }  // namespace
