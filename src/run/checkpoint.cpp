@@ -137,7 +137,9 @@ void Run::Impl::restore_outputs(run::Checkpoint& from, bool resume) {
   unpack(files, [this](state::Archive& part) {
     for (cycle::Sink* sink : files_) sink->persist(part);
   });
-  for (const std::filesystem::path& log : output::contact_call_files({settings.output, model.name()})) {
+  const output::RunFolder folder{settings.output, model.name()};
+  if (memory_ != nullptr && memory.empty()) memory_->read(folder.history(), from.info.time);
+  for (const std::filesystem::path& log : output::contact_call_files(folder)) {
     tell("run.recording_stopped", "a run that goes on, also with a later Engine deck, is not recorded: this call log ends before it", log);
   }
 }

@@ -1,6 +1,7 @@
 // The time history of a run in memory.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "abut/run.hpp"
@@ -18,6 +19,8 @@ class MemoryHistory final : public cycle::Sink {
   void cycle(const cycle::Snapshot& now) override;
   void end(const cycle::Outcome&) override {}
   void persist(state::Archive& a) override;
+  /// The rows of NAME_th.csv before a time: of a run that kept none in memory. @throws state::ArchiveError when its columns are others
+  void read(const std::filesystem::path& file, double before);
 
  private:
   History& history_;

@@ -12,7 +12,6 @@
 
 #include "output/progress.hpp"
 #include "output/run_outputs.hpp"
-#include "run/memory_history.hpp"
 #include "simd/isa.hpp"
 
 #ifndef ABUT_VERSION
@@ -124,7 +123,11 @@ void Run::Impl::open_outputs() {
     call_logs_[k].open(path, std::ios::binary);
     if (!call_logs_[k]) throw RunError("cannot write '" + path.string() + "'");
   }
-  if (settings.record_history) memory_ = sinks.add(std::make_unique<run::MemoryHistory>(history, model.impl().model));
+  if (settings.record_history) {
+    auto memory = std::make_unique<run::MemoryHistory>(history, model.impl().model);
+    memory_ = memory.get();
+    sinks.add(std::move(memory));
+  }
   if (settings.progress) sinks.add(std::make_unique<output::Progress>(output::console_progress()));
 }
 

@@ -18,6 +18,7 @@
 #include "output/run_info.hpp"
 #include "output/sink_set.hpp"
 #include "run/loaded_model.hpp"
+#include "run/memory_history.hpp"
 
 namespace abut {
 
@@ -89,7 +90,7 @@ struct Run::Impl {
   [[nodiscard]] run::CheckpointInfo checkpoint_info();
 
   std::vector<cycle::Sink*> watches_;
-  cycle::Sink* memory_ = nullptr;  ///< null: not asked for
+  run::MemoryHistory* memory_ = nullptr;  ///< null: not asked for
   std::vector<cycle::Sink*> files_;
   std::vector<std::ofstream> call_logs_;  ///< per RunSettings::recordings
 };

@@ -243,6 +243,27 @@ def test_a_run_folder_is_resumed(tmp_path):
     assert (tmp_path / "out" / "twoblocks.rst").exists()
 
 
+def test_a_resumed_run_has_the_rows_of_a_run_that_kept_none(tmp_path):
+    deck = two_blocks().write(tmp_path / "deck")
+    run = abut.Run(abut.Model.read(deck), output=tmp_path / "out", checkpoint_every=10, record_history=False, threads=1)
+    run.advance_to_end()
+    (tmp_path / "deck" / "twoblocks_0002.rad").write_text(f"/RUN/twoblocks/2\n{1.5 * run.model.end_time}\n")
+    resumed = abut.Run.resume(tmp_path / "out", threads=1)
+    before = resumed.history.table.copy()
+    np.testing.assert_array_equal(before, abut.History.read(tmp_path / "out").table)
+    resumed.advance_to_end()
+    table = abut.History.read(tmp_path / "out").table
+    assert len(table) > len(before) > 10
+    np.testing.assert_array_equal(resumed.history.table, table)
+
+    # From a checkpoint with rows behind it.
+    (tmp_path / "out" / "twoblocks.rst").unlink()
+    again = abut.Run.resume(tmp_path / "out", threads=1)
+    assert len(before) <= len(again.history.time) < len(table) and again.history.time[-1] < again.time
+    again.advance_to_end()
+    np.testing.assert_array_equal(again.history.table, table)
+
+
 def test_a_gradual_start_pushes_an_overlap_apart_over_its_time():
     """A cube 0.02 deep in another's gap: at once it is thrown out, gradually the interface puts in work SW and less speed."""
     def overlap(**settings):

@@ -124,8 +124,6 @@ void bind_making(RunClass& run) {
           "record_history"_a = true, "progress"_a = false,
           "Goes on from the newest whole checkpoint of a run folder, with its files: the same bits as if it had never stopped.\n\n"
           "folder: run folder or a checkpoint file in it. deck: Starter deck, None: where it was. checkpoint_every: None: as before.\n"
-          "history: the rows from the checkpoint on, where the run that wrote it kept none in memory (as the abut program does);\n"
-          "History.read(folder) has all.\n"
           "Raises RunError when there is no usable checkpoint, when it is of another model, version or deck, or another run writes in the\n"
           "folder; InputError of the deck.")
       .def("save", &save_run, "checkpoint"_a,
