@@ -108,13 +108,13 @@ void Manifest::end(const cycle::Outcome& outcome) {
                 {"CX", {{"value", record_.worst_made().value}, {"time", record_.worst_made().time}}}};
   j["run_findings"] = Json::array();
   for (const RunFinding& f : *info_.during) {
-    j["run_findings"].push_back({{"interface", f.interface_id},
-                                 {"severity", "warning"},
+    j["run_findings"].push_back({{"severity", "warning"},
                                  {"code", f.diagnostic.code},
                                  {"time", f.time},
                                  {"cycle", f.cycle},
                                  {"measure", f.measure},
                                  {"message", f.diagnostic.message}});
+    if (f.interface_id != 0) j["run_findings"].back()["interface"] = f.interface_id;
     if (!f.nodes.empty()) j["run_findings"].back()["nodes"] = f.nodes;
     if (!f.segments.empty()) j["run_findings"].back()["segments"] = f.segments;
   }
