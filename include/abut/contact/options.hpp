@@ -61,7 +61,7 @@ struct Options {
   double friction = 0.0;          ///< Coulomb coefficient (T19); >= 0
   FrictionLaw friction_law;       ///< how it depends on pressure and speed
   FrictionFilter filter;          ///< of the trial friction force
-  double tangential_ratio = 0.1;  ///< K_t / K_n (T21); > 0, at most 1
+  double tangential_ratio = 0.1;  ///< K_t / K_n (T21); > 0
   double gap = 0.0;               ///< length (T25..T28); >= 0
   /// Gap of a pair from thickness: half of the held node's and half of the facet's at the contact point (SurfaceState::thickness: 0 for
   /// solids; averaged at nodes, interpolated over facets), at least `gap`; at inward folds each facet counts with its own. With closest

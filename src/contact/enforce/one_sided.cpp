@@ -20,8 +20,7 @@ void check(const Options& o) {
   for (const double c : o.friction_law.c) {
     if (!std::isfinite(c)) refuse("coefficients of the friction law must be finite", c);
   }
-  // What is handed to the step is the normal stiffness.
-  if (!(o.tangential_ratio > 0.0 && o.tangential_ratio <= 1.0)) refuse("tangential_ratio must be > 0 and at most 1", o.tangential_ratio);
+  if (!(o.tangential_ratio > 0.0) || !std::isfinite(o.tangential_ratio)) refuse("tangential_ratio must be > 0", o.tangential_ratio);
   if (!(o.gap >= 0.0) || !std::isfinite(o.gap)) refuse("gap must be >= 0", o.gap);
   if (!(o.damping >= 0.0 && o.damping <= 1.0)) refuse("damping must be 0 to 1 of critical", o.damping);
   if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) refuse("filter share must be > 0 and at most 1", o.filter.share);

@@ -153,7 +153,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       if (options_.rubs()) {
         const double pressure = surface.pressure(touch.facet, touch.pair.magnitude);
         const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
-        tangent *= std::sqrt(1.0 + mu * mu);
+        tangent *= std::max(std::sqrt(1.0 + mu * mu), options_.tangential_ratio);
       }
       if (options_.damping > 0.0) {
         // With viscous forces from the step before, h^2 K/4 + h C/2 <= 1: in the terms of one spring (sqrt(1 + z^2) + z)^2, or 2 C/h.

@@ -23,7 +23,7 @@ HeldRules Pass::held_rules(const HostState& host) const {
   r.tangential_ratio = options_.tangential_ratio;
   r.friction = options_.friction;
   r.rubs = options_.rubs();
-  r.step_factor = r.rubs ? std::sqrt(1.0 + r.friction * r.friction) : 1.0;
+  r.step_factor = r.rubs ? std::max(std::sqrt(1.0 + r.friction * r.friction), r.tangential_ratio) : 1.0;
   r.step = host.dt;
   r.mean_step = host.dt_bar_old;
   r.step_before = step_before(host.dt, host.dt_bar_old);

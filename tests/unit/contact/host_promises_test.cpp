@@ -191,6 +191,24 @@ TEST(HostPromises, StiffnessInAStripDoesNotKnowWhereAFacetBegins) {
   EXPECT_NEAR(handed(3.0, false, 0), handed(1.0, false, 0), 0.02 * handed(1.0, false, 0));
 }
 
+// A friction spring that is stiffer than the normal one is what the step hears of.
+TEST(HostPromises, StiffFrictionSpringsCountForTheStep) {
+  const auto handed = [](double ratio) {
+    Options o;
+    o.gap = 0.1;
+    o.friction = 0.3;
+    o.tangential_ratio = ratio;
+    o.rules.law = Law::constant;
+    Slider s(o);
+    s.host.contact(s.interface);
+    const double at_first = s.host.k[4];
+    s.host.contact(s.interface);
+    EXPECT_DOUBLE_EQ(s.host.k[4], at_first);
+    return at_first;
+  };
+  EXPECT_NEAR(handed(5.0) / handed(1.0), 5.0 / std::sqrt(1.09), 1e-9);
+}
+
 TEST(HostPromises, NodesAndNumbersThatMeanNothingAreRefused) {
   Host host;
   const Surface surface(grid(host, 1, 1, 0, 1, 0, 1, flat));
@@ -220,7 +238,7 @@ TEST(HostPromises, NodesAndNumbersThatMeanNothingAreRefused) {
     EXPECT_THROW((void)Interface::nodes_to_surface({4}, {}, surface, bad), std::invalid_argument);
   };
   one_sided([](Options& o) { o.friction = infinite; });
-  one_sided([](Options& o) { o.tangential_ratio = 1.1; });
+  one_sided([](Options& o) { o.tangential_ratio = infinite; });
   one_sided([](Options& o) { o.death = nan; });
   one_sided([](Options& o) { o.friction_law.c[0] = infinite; });
 }
