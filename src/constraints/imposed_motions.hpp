@@ -35,8 +35,8 @@ class ImposedMotions {
   /// Step 25: exact discrete work.
   double ledger_work(const state::State& state) { return meter_.settle(state); }
 
-  /// 1/2 m |v|^2 and 1/2 J |w|^2 of the nodes with an imposed motion, velocities of the half step: of the largest motion between two
-  /// outputs.
+  /// 1/2 m |v|^2 and 1/2 J |w|^2 of the nodes with an imposed motion, velocities of the half step, which a jump shows though the energies
+  /// at t^n do not.
   [[nodiscard]] double half_step_energy(const state::State& state) const;
 
   void persist(state::Archive& a);

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "cycle/cycle.hpp"
+#include "model/topology.hpp"
 
 namespace abut::cycle {
 
@@ -106,20 +107,7 @@ double Cycle::element_count() const {
 
 Id Cycle::element_id(const elements::Group& group, Index element) const {
   if (element == no_index) return 0;
-  const auto i = static_cast<std::size_t>(group.elements()[static_cast<std::size_t>(element)]);
-  switch (group.kind()) {
-    case model::ElementKind::shell4:
-      return model_.shells.id[i];
-    case model::ElementKind::shell3:
-      return model_.sh3ns.id[i];
-    case model::ElementKind::brick:
-      return model_.bricks.id[i];
-    case model::ElementKind::tetra:
-      return model_.tetras.id[i];
-    case model::ElementKind::none:
-      break;
-  }
-  return 0;
+  return model::element_id(model_, {group.kind(), group.elements()[static_cast<std::size_t>(element)]});
 }
 
 std::vector<PhaseTime> Cycle::phases() const {

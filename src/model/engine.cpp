@@ -45,7 +45,7 @@ class EngineReader {
     }
     if (has_run_ && run_ == 1 && k_.history_interval == infinity && k_.animation_interval == infinity) {
       c_.diagnostics->note("engine.few_outputs", place,
-                           "neither /TFILE nor /ANIM/DT gives an interval: the time history has a first and a last row, and there is no "
+                           "neither /TFILE nor /ANIM/DT gives an interval: the time history has the row of the start, and there is no "
                            "animation");
     }
     if (!refused_.empty()) {

@@ -69,6 +69,23 @@ double one_point_volume(const std::array<Vec3, 8>& x) {
   return dot(cross(a, b), c) / 64.0;
 }
 
+Id element_id(const Model& model, const ElementRef& element) {
+  const auto i = static_cast<std::size_t>(element.index);
+  switch (element.kind) {
+    case ElementKind::shell4:
+      return model.shells.id[i];
+    case ElementKind::shell3:
+      return model.sh3ns.id[i];
+    case ElementKind::brick:
+      return model.bricks.id[i];
+    case ElementKind::tetra:
+      return model.tetras.id[i];
+    case ElementKind::none:
+      break;
+  }
+  return 0;
+}
+
 double shape_volume(const std::array<Vec3, 8>& x) {
   static constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
   const double g = 1.0 / std::sqrt(3.0);

@@ -11,6 +11,8 @@ namespace abut::model {
 
 /// Signed volume of a hexahedron by one-point integration: 8 times the Jacobian at its centre.
 [[nodiscard]] double one_point_volume(const std::array<Vec3, 8>& x);
+/// What a deck calls it; 0 of none.
+[[nodiscard]] Id element_id(const Model& model, const ElementRef& element);
 /// Exact volume of its trilinear shape.
 [[nodiscard]] double shape_volume(const std::array<Vec3, 8>& x);
 /// Signed volume; positive when the right-hand normal of the first three corners points away from the fourth.

@@ -5,28 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "model/topology.hpp"
+
 namespace abut::output {
-
-namespace {
-
-Id id_of(const model::Model& model, model::ElementKind kind, Index element) {
-  const auto i = static_cast<std::size_t>(element);
-  switch (kind) {
-    case model::ElementKind::shell4:
-      return model.shells.id[i];
-    case model::ElementKind::shell3:
-      return model.sh3ns.id[i];
-    case model::ElementKind::brick:
-      return model.bricks.id[i];
-    case model::ElementKind::tetra:
-      return model.tetras.id[i];
-    case model::ElementKind::none:
-      break;
-  }
-  return 0;
-}
-
-}  // namespace
 
 void ErosionWatch::begin(const cycle::Snapshot& first) {
   parts_.resize(first.model->parts.size());
@@ -53,7 +34,7 @@ Id ErosionWatch::first_deleted(const cycle::Snapshot& now, std::size_t part) {
   for (const auto& g : now.groups) {
     for (Index e = 0; g->part() == static_cast<Index>(part) && e < g->size(); ++e) {
       if (g->active(e)) continue;
-      const Id id = id_of(*now.model, g->kind(), g->elements()[static_cast<std::size_t>(e)]);
+      const Id id = model::element_id(*now.model, {g->kind(), g->elements()[static_cast<std::size_t>(e)]});
       first = first == 0 ? id : std::min(first, id);
     }
   }

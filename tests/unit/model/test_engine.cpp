@@ -127,8 +127,8 @@ TEST(Engine, HarmlessKeywordsAreSkippedWithANote) {
 
 TEST(Engine, ADeckWithoutOutputsSaysSo) {
   EXPECT_EQ(build_engine("/RUN/a/1\n1\n").messages(),
-            std::vector<std::string>{"deck_0001.rad: note: neither /TFILE nor /ANIM/DT gives an interval: the time history has a first and "
-                                     "a last row, and there is no animation"});
+            std::vector<std::string>{"deck_0001.rad: note: neither /TFILE nor /ANIM/DT gives an interval: the time history has the row of "
+                                     "the start, and there is no animation"});
   EXPECT_TRUE(build_engine("/RUN/a/1\n1\n/TFILE\n0.1\n").messages().empty());
   EXPECT_TRUE(build_engine("/RUN/a/1\n1\n/ANIM/DT\n0 0.1\n").messages().empty());
 }
