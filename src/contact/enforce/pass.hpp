@@ -250,9 +250,16 @@ class Pass {
   [[nodiscard]] bool keeps_its_account(const Touch& touch, const NodeState& before, double moved_in, double made) const;
   /// What leap-frog made by a changed step under the last force of a node that has no facet any more (eroded, moved away, contact over).
   [[nodiscard]] double stepped_without_facet(const HostState& host, const Side& held, const Side& surface, Index i) const;
-  /// Stiffness of the strip of a free border that a node behind the gap, beyond the strip's end, may reach in the coming step; 0: none.
-  [[nodiscard]] double strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
-                                   const Kinematics& motion) const;
+  /// Tells the host of the strips of free borders that the node, behind the gap and beyond their ends, may reach in the coming step,
+  /// whatever holds it now.
+  void foresee_strips(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, GroupSums& sums);
+  struct StripAhead {
+    double stiffness = 0.0;  ///< 0: its end is out of reach
+    double clear = 0.0;      ///< by the clock, how long it stays so
+  };
+  /// @param end  the facet's closest point
+  [[nodiscard]] StripAhead strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, Index facet,
+                                       const ClosestPoint& end) const;
   void limit_depths();
   [[nodiscard]] const NodeState& now(Index i) const { return committed_ ? states_.before(i) : states_.after(i); }
   /// Signed distance of a held node to the other side less the pair's gap, whatever it touches; NaN when nothing is near.

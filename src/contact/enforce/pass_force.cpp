@@ -67,46 +67,6 @@ double Pass::stepped_without_facet(const HostState& host, const Side& held, cons
   return made_by_changing_step(before.force + before.damping, step_before(host.dt, host.dt_bar_old), host.dt, before.rate, rate);
 }
 
-double Pass::strip_ahead(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
-                         const Kinematics& motion) const {
-  const ClosestPoint& end = touch.measure.closest;
-  if (!end.beyond || host.dt <= 0.0) return 0.0;
-  const Patch patch = surface.patch(touch.facet);
-  // Seen along the facet: what the node is behind the gap, and how far outside the strip's end. (touch.distance is that to the end itself.)
-  const Vec3 n = normal_at(patch, end.s, end.t);
-  const Vec3 r = held.x()[at(i)] - touch.point;
-  const double distance = dot(r, n);
-  const double penetration = touch.gap - distance;
-  if (penetration <= 0.0 || -distance > depth_[at(touch.facet)]) return 0.0;
-  const std::size_t corners = patch.triangle ? 3 : 4;
-  const std::array<Index, 4> node = surface.surface().facet(touch.facet).node;
-  double longest = 0.0, slowest = 1e300, fastest = -1e300;
-  for (std::size_t k = 0; k < corners; ++k) {
-    longest = std::max(longest, norm(patch.x[(k + 1) % corners] - patch.x[k]));
-    const double rises = dot(host.v[at(node[k])], n);
-    slowest = std::min(slowest, rises);
-    fastest = std::max(fastest, rises);
-  }
-  if (longest <= 0.0) return 0.0;
-  const double side = (patch.triangle ? 2.0 : 1.0) * surface.facet_area(touch.facet) / longest;  // the way across
-  if (side <= 0.0) return 0.0;
-  // The node's foot moves along the facet by its own motion and by the facet's turning.
-  const Vec3 v = motion.rate * touch.normal + motion.tangential_velocity;
-  const double speed = norm(v - dot(v, n) * n) + (fastest - slowest) / side * std::abs(distance);
-  const double way = 1.5 * step_growth * host.dt * speed;
-  if (norm(r - distance * n) > way) return 0.0;
-  // Not further than every list reaches: what is said must not depend on how old the lists are.
-  if (norm(r) > reach()) return 0.0;
-  const double width = (1.0 - border_flat) * border_strip * side;
-  double spread = 0.0;
-  for (const double w : touch.weight) spread += std::abs(w);
-  // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node
-  // enters within a step takes and gives other energies than it holds by up to h^2 K/m, and no first force corrects it as the normal one
-  // is.
-  const double curvature = 16.0 * 8.0 * touch.law.potential(penetration) / (width * width);
-  return 0.5 * (1.0 + spread) * plain_stiffness(held, surface, i, touch.facet) * curvature;
-}
-
 bool Pass::keeps_its_account(const Touch& touch, const NodeState& before, double moved_in, double made) const {
   constexpr double unpaid = 0.2, at_once = 0.3;  // of what it holds by the law
   if (!closest() || !settled_ || (before.held != 0 && before.reckoned == 0)) return false;
@@ -116,7 +76,7 @@ bool Pass::keeps_its_account(const Touch& touch, const NodeState& before, double
   const bool in_strip = touch.pair.stiffness < touch.pair.whole;
   // A last force left it nearly nothing: what the law holds where it turns round is not its own.
   return in_strip || before.light == NodeState::settled ||
-         (dot(before.normal, touch.normal) < turns && made - before.made > at_once * touch.pair.potential);
+         ((dot(before.normal, touch.normal) < turns || before.facet != touch.facet) && made - before.made > at_once * touch.pair.potential);
 }
 
 void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
@@ -168,13 +128,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       held_loads.load(i).own_stiffness += tangent;
       step_stiffness = tangent;
     }
-    if (touch.pair_open && !touch.contact && after.ignored == 0) {
-      const double tangent = strip_ahead(host, held, surface, i, touch, motion);
-      if (tangent > 0.0) {
-        held_loads.load(i).own_stiffness += tangent;
-        step_stiffness = std::max(step_stiffness, tangent);
-      }
-    }
+    foresee_strips(host, held, surface, held_loads, i, sums);
     if (touch.law.stiffens() && closing > 0.0) {
       const double room = std::max(touch.full_gap - penetration, (1.0 - NormalLaw::bend) * touch.full_gap);
       const double horizon = touch.contact ? 2.0 : 0.5 / passed_over;

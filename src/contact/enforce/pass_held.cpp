@@ -210,6 +210,7 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   after.held = before.held;
   after.ignored = 0;
   after.in_front = batch.distance[k] >= 0.0 ? 1 : 0;
+  foresee_strips(scene.host, scene.held, scene.surface, loads, i, sums);
 }
 
 }  // namespace abut::contact

@@ -87,6 +87,7 @@ void Candidates::make(const Side& held, const Side& surface, const std::function
   first_.assign(nodes + 1, 0);
   nearest_.assign(nodes, 1e300);
   border_.assign(nodes, 1e300);
+  strips_.assign(nodes, 1e300);
   others_.assign(nodes, {});
   std::vector<std::vector<Entry>> lists(pieces);
   const auto make_lists = [&](std::size_t begin, std::size_t end) {
@@ -169,6 +170,7 @@ void Candidates::list(const Side& held, const Side& surface, Index first, std::s
     }
     nearest_[node] = std::min(nearest, border);
     border_[node] = border;
+    strips_[node] = border < 1e300 ? -1e300 : 1e300;  // not looked at yet
     first_[node + 1] = static_cast<Index>(entries.size() - before);
   }
 }

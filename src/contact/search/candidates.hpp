@@ -95,6 +95,9 @@ class Candidates {
   /// The least height of the node over the planes of listed facets at free borders, + the clock when it was measured; 1e300: none listed.
   [[nodiscard]] double border_due(Index node) const { return border_[at(node)]; }
   void set_border_due(Index node, double due) { border_[at(node)] = due; }
+  /// When the node may next be near the outer end of a strip, by the clock; 1e300: no facet with free borders listed.
+  [[nodiscard]] double strips_due(Index node) const { return strips_[at(node)]; }
+  void set_strips_due(Index node, double due) { strips_[at(node)] = due; }
   /// Of all active facets in the node's list but `facet`, the nearest one: when the first of them is due.
   struct Others {
     Index facet = no_index;  ///< no_index: unknown
@@ -122,7 +125,7 @@ class Candidates {
   BoxTree tree_;
   std::vector<Index> first_;
   std::vector<Entry> entries_;
-  std::vector<Due> nearest_, border_;
+  std::vector<Due> nearest_, border_, strips_;
   std::vector<Entry> others_;           ///< facet + 1
   Positions held_then_, surface_then_;  ///< when the lists were made
   Vec3 shift_;                          ///< mean motion of the surface since then
