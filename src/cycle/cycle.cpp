@@ -76,9 +76,10 @@ void Cycle::decide_outputs() {
   const double t = state_.times.t;
   history_written_ = history_due_;
   const model::Controls& c = model_.controls;
-  history_due_ = t >= std::min(c.t_end, next_history_);
+  const bool after_end = t > c.t_end;  // a cycle for the animation; a row only where a run that goes on writes one too
+  history_due_ = t >= (after_end ? next_history_ : std::min(c.t_end, next_history_));
   if (t >= next_history_) next_history_ = std::max(t, next_history_ + c.history_interval);
-  animation_due_ = t >= next_animation_;
+  animation_due_ = t >= next_animation_ || after_end;
   if (animation_due_) next_animation_ = std::max(t, next_animation_ + c.animation_interval);
   listing_due_ = c.print_every > 0 && state_.times.cycle % c.print_every == 0;
 }

@@ -42,8 +42,8 @@ class Cycle {
   /// @throws RunError when a result is not finite or an error limit of the deck is exceeded
   void advance(Sink& sink);
 
-  /// The run is over when t > t_end (numerics.md 2.4).
-  [[nodiscard]] bool finished() const { return state_.times.t > model_.controls.t_end; }
+  /// The run is over when t > t_end (numerics.md 2.4), a cycle later where an animation state is still due.
+  [[nodiscard]] bool finished() const { return state_.times.t > model_.controls.t_end && !animation_left(); }
   [[nodiscard]] const state::State& state() const { return state_; }
   [[nodiscard]] const state::Balance& balance() const { return balance_; }
   [[nodiscard]] const StepController& controller() const { return controller_; }
@@ -136,6 +136,11 @@ class Cycle {
   state::Balance balance_;
   StepController controller_;
   double next_history_ = 0.0, next_animation_ = 0.0;
+  /// A state is due up to the end, and no cycle has come to it.
+  [[nodiscard]] bool animation_left() const {
+    constexpr double rounding = 1e-9;  // of the sum of intervals
+    return next_animation_ <= (1.0 + rounding) * model_.controls.t_end;
+  }
   bool history_written_ = false;  ///< in the cycle before
   bool history_due_ = false, animation_due_ = false, listing_due_ = false;
   bool begun_ = false;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -41,7 +42,7 @@ void Progress::cycle(const cycle::Snapshot& now) {
   const double elapsed = wall - start_;
   const double cycles = static_cast<double>(times.cycle - first_cycle_);
   const double done = times.t - first_time_;
-  const double left = done > 0.0 ? elapsed * (now.model->controls.t_end - times.t) / done : -1.0;
+  const double left = done > 0.0 ? elapsed * std::max(0.0, now.model->controls.t_end - times.t) / done : -1.0;
   const double rate = elapsed > 0.0 ? cycles * static_cast<double>(elements_) / elapsed : 0.0;
   const std::string line = fmt::format(
       "cycle {:>8}  time {:<11.5g} dt {:<10.4g} by {} {}  error {:.2f} %  {:.3g} element-cycles/s  {} left", times.cycle, times.t,

@@ -30,7 +30,7 @@ soft aluminium
 # The soft plate gives way at once and the plates part after 10 us: many states of a short run.
 ENGINE = [("/RUN/plate_drop/1\n               0.001\n", "/RUN/plate_drop/1\n               6e-5\n"),
           ("/ANIM/DT\n                   0               4e-05\n", "/ANIM/DT\n                   0               3e-06\n")]
-STATES = 20
+STATES = 21
 FIELDS = ["displacement", "velocity", "contact_force", "contact_pressure_normal", "contact_pressure_tangential", "contact_penetration",
           "contact_state", "plastic_strain", "von_mises", "stress"]
 

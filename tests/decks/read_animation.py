@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Open an animation of abut as ParaView would and check it: every state of the index, every field, every value.
 
-usage: /usr/bin/python3 read_animation.py NAME.pvd [--states N] [--field NAME ...] [--nonzero NAME ...]
+usage: /usr/bin/python3 read_animation.py NAME.pvd [--states N] [--end T] [--field NAME ...] [--nonzero NAME ...]
 
 Needs VTK's Python module (Debian: python3-vtk9). For each state: the file can be read, its time is the index's, times increase,
 points are the same as in the first state and no cell appears that the state before did not have, the fields that every state has are there with their number of components, and
-every value is finite. --states: exact number of states. --field: a further field that must be there. --nonzero: a field that must
+every value is finite. --states: exact number of states. --end: time at or just after which the last one is (within
+a hundredth). --field: a further field that must be there. --nonzero: a field that must
 have a value other than zero in some state. Exit status 0 when all holds, else 1 with the first fault.
 """
 import argparse
@@ -104,6 +105,9 @@ def check(arguments):
             largest[name] = max(largest.get(name, 0.0), value)
     for name in arguments.nonzero:
         require(largest.get(name, 0.0) > 0.0, f"field '{name}' is zero in every state")
+    if arguments.end is not None:
+        last = index[-1][0]
+        require(arguments.end <= last <= 1.01 * arguments.end, f"{arguments.index} ends at {last}, not at {arguments.end}")
     print(f"{arguments.index}: {len(index)} states, {len(first[0])} points, {len(first[1])} cells at first, {len(alive)} at last")
     for name in sorted(largest):
         print(f"  {name:<30} largest magnitude {largest[name]:.6g}")
@@ -113,6 +117,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("index")
     parser.add_argument("--states", type=int)
+    parser.add_argument("--end", type=float)
     parser.add_argument("--field", nargs="*", default=[])
     parser.add_argument("--nonzero", nargs="*", default=[])
     try:
