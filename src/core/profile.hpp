@@ -29,6 +29,9 @@ struct Profile {
   /// its end, to second order; or from the geometry at its end, without what a rotation in the step adds but where the reference takes it
   /// out.
   enum class StrainIncrement { midpoint, reference };
+  /// Warped membranes (Ishell 3 and 4, N = 1) whose hourglass rates leave out what a rigid rotation makes through v_z: the forces do work on
+  /// v_z as well (no net moment, a potential), or do not.
+  enum class WarpedMembrane { balanced, reference };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
   /// Rigid bodies: exact rotation of secondary nodes, gyroscopic moment at mid-step (keeps energy and angular momentum),
@@ -57,6 +60,7 @@ struct Profile {
   SmallStrainEnergy small_strain_energy = SmallStrainEnergy::work;
   ShellRotation shell_rotation = ShellRotation::exact;
   StrainIncrement strain_increment = StrainIncrement::midpoint;
+  WarpedMembrane warped_membrane = WarpedMembrane::balanced;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
   TetraSpin tetra_spin = TetraSpin::exact;
@@ -77,6 +81,7 @@ struct Profile {
     p.small_strain_energy = SmallStrainEnergy::mean_volume;
     p.shell_rotation = ShellRotation::reference;
     p.strain_increment = StrainIncrement::reference;
+    p.warped_membrane = WarpedMembrane::reference;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
     p.tetra_spin = TetraSpin::reference;

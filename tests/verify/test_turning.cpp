@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "support/recorder.hpp"
 #include "support/scene.hpp"
@@ -119,6 +120,53 @@ TEST(Turning, VibrationsInAllModesMakeNoEnergy) {
     const double end = vibrated(Profile::standard());
     std::printf("[found] vibrating, %s: energy at the end %.5f; reference profile %.4g\n", form.name, end, vibrated(Profile::reference()));
     EXPECT_LT(end, 1.01) << form.name;
+  }
+}
+
+// Membranes of warped quadrilaterals (N = 1): hourglass forces at the heights of the corners, and v_z in their rates.
+TEST(Turning, WarpedMembranesKeepEnergyAndMomentum) {
+  for (const int ishell : {3, 4}) {
+    const auto vibrated = [ishell](const Profile& profile, double& moment) {
+      Scene s("turning");
+      const Index property = s.shell_property(0.002);
+      auto& shell = std::get<model::ShellProperty>(s.model.properties[0].data);
+      shell.ishell = ishell;
+      shell.points = 1;
+      s.shells(s.part(property, s.elastic(7800.0, 210e9, 0.3)), 4, 4, [](double u, double v) {
+        const double odd = (std::lround(4 * u) + std::lround(4 * v)) % 2 == 0 ? 1.0 : -1.0;
+        return Vec3{side * (u - 0.5), side * (v - 0.5), 0.02 * side * odd};
+      });
+      std::mt19937 numbers(1);
+      const auto any = [&numbers] { return 2.0 * static_cast<double>(numbers()) / 4294967295.0 - 1.0; };
+      std::vector<Vec3> start;
+      for (Index n = 0; n < s.model.node_count(); ++n) {
+        const double x = any(), y = any(), z = any();
+        start.push_back(1e-6 * Vec3{x, y, z});
+        s.velocity({n}, start.back());
+      }
+      s.end(1e-2);
+      abut::cycle::RunOptions options;
+      options.profile = profile;
+      Recorder r;
+      abut::cycle::run(s.model, options, r);
+      Vec3 before, after;
+      double size = 0.0;
+      for (std::size_t n = 0; n < s.model.node_x.size(); ++n) {
+        const double m = r.last_state.mass[n];
+        before += m * cross(s.model.node_x[n], start[n]);
+        after += m * cross(r.last_state.x[n], r.last_state.v[n]);
+        size += m * norm(s.model.node_x[n]) * norm(start[n]);
+      }
+      moment = norm(after - before) / size;
+      const auto& last = r.samples.back().balance;
+      return (last.ie + last.ke + last.ker + last.he) / r.samples.front().balance.ke;
+    };
+    double moment, reference_moment;
+    const double end = vibrated(Profile::standard(), moment), reference = vibrated(Profile::reference(), reference_moment);
+    std::printf("[found] warped membranes, Ishell %d: energy at the end %.5f, angular momentum changes by %.1e; reference profile %.4g, %.1e\n",
+                ishell, end, moment, reference, reference_moment);
+    EXPECT_LT(end, 1.001) << ishell;
+    EXPECT_LT(moment, 1e-6) << ishell;
   }
 }
 

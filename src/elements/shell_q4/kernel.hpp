@@ -200,8 +200,13 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   // nodal forces and moments in the frame: gradient part of nodes 1 and 2, the rest
   const T f1x = t * (n.fxx * g.px1 + n.fxy * g.py1), f2x = t * (n.fxx * g.px2 + n.fxy * g.py2);
   const T f1y = t * (n.fyy * g.py1 + n.fxy * g.px1), f2y = t * (n.fyy * g.py2 + n.fxy * g.px2);
-  const T f1z = t * (n.fzx * g.px1 + n.fyz * g.py1) + (hg.dn_1 + hg.dn_2);
-  const T f2z = t * (n.fzx * g.px2 + n.fyz * g.py2) + (hg.dn_1 - hg.dn_2);
+  T f1z = t * (n.fzx * g.px1 + n.fyz * g.py1) + (hg.dn_1 + hg.dn_2);
+  T f2z = t * (n.fzx * g.px2 + n.fyz * g.py2) + (hg.dn_1 - hg.dn_2);
+  if (q.balanced_warp) {  // what the hourglass rates do not see of v_z
+    const T slope = two * g.z2 * n.off * inverse_area;
+    f1z -= slope * (hg.qx * g.px1 + hg.qy * g.py1);
+    f2z -= slope * (hg.qx * g.px2 + hg.qy * g.py2);
+  }
   const T t2 = t * t;
   const T m1x = -(t2 * (n.myy * g.py1 + n.mxy * g.px1)), m2x = -(t2 * (n.myy * g.py2 + n.mxy * g.px2));
   const T m1y = t2 * (n.mxx * g.px1 + n.mxy * g.py1), m2y = t2 * (n.mxx * g.px2 + n.mxy * g.py2);
