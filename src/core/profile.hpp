@@ -29,8 +29,8 @@ struct Profile {
   /// its end, to second order; or from the geometry at its end, without what a rotation in the step adds but where the reference takes it
   /// out.
   enum class StrainIncrement { midpoint, reference };
-  /// Warped membranes (Ishell 3 and 4, N = 1) whose hourglass rates leave out what a rigid rotation makes through v_z: the forces do work on
-  /// v_z as well (no net moment, a potential), or do not.
+  /// Warped membranes (Ishell 3 and 4, N = 1) whose hourglass rates leave out what a rigid rotation makes through v_z: the forces do work
+  /// on v_z as well (no net moment, a potential), or do not.
   enum class WarpedMembrane { balanced, reference };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };

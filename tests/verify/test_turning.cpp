@@ -163,8 +163,9 @@ TEST(Turning, WarpedMembranesKeepEnergyAndMomentum) {
     };
     double moment, reference_moment;
     const double end = vibrated(Profile::standard(), moment), reference = vibrated(Profile::reference(), reference_moment);
-    std::printf("[found] warped membranes, Ishell %d: energy at the end %.5f, angular momentum changes by %.1e; reference profile %.4g, %.1e\n",
-                ishell, end, moment, reference, reference_moment);
+    std::printf(
+        "[found] warped membranes, Ishell %d: energy at the end %.5f, angular momentum changes by %.1e; reference profile %.4g, %.1e\n",
+        ishell, end, moment, reference, reference_moment);
     EXPECT_LT(end, 1.001) << ishell;
     EXPECT_LT(moment, 1e-6) << ishell;
   }

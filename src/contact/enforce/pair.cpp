@@ -58,7 +58,9 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   const std::array<Index, 4>& corner = surface.surface().local()[at(m.facet)];
   const std::size_t corners = patch.triangle ? 3 : 4;
   const double p = own.depth;
-  const Wider wider = wider_at(-widening * own.distance);
+  Wider wider = wider_at(-widening * own.distance);
+  wider.value *= patch.widens;
+  wider.slope *= patch.widens;
   const double widens = wider.slope * widening;  // dw/dP
   const Taper t = taper(patch, c.s, c.t, wider.value);
   if (c.beyond || t.value <= 0.0) return result;
@@ -134,7 +136,7 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
     // Cross terms kappa' phi' and, in a strip, T'' phi: |T''| <= 8 and |T'| <= 1.54 in units of the strip.
     if (phi > 0.0) result.extra_tangent = norm(sideways) * law.force(p) / phi;
     if (t.value < 1.0) {
-      constexpr double fall = (1.0 - border_flat) * border_strip;
+      const double fall = (1.0 - border_flat) * border_strip * patch.narrow;
       const double width = fall * across(patch.triangle, free.count, tangent, t.ds != 0.0, t.dt != 0.0);
       if (width > 0.0) result.extra_tangent += pair * 8.0 * phi / (width * width);
       if (wider.value > 0.0) {

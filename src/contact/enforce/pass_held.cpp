@@ -71,7 +71,8 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   const double strip = before.held == 2 ? border_strip + border_widening : border_strip;
   const unsigned borders = surface.borders(before.facet);
   const double reach = borders != 0 ? 1.0 + 2.0 * strip : 1.0;
-  constexpr double flat = 1.0 + 2.0 * border_flat * border_strip;  // s and t run over two per side
+  const double narrow = borders != 0 ? surface.patch(before.facet).narrow : 1.0;
+  const double flat = narrow < 1.0 ? 1.0 : 1.0 + 2.0 * border_flat * border_strip;  // s and t run over two per side
   for (unsigned side = 0; side < 4; ++side) batch.end[side][k] = (borders >> side & 1U) != 0 ? flat : 1.0;
   batch.reach[k] = reach * reach;
   batch.rate_before[k] = before.rate;

@@ -23,7 +23,7 @@ double inside_strips(const Patch& patch, const ClosestPoint& at) {
                                          : std::array<double, 4>{-0.5 * (1.0 + t), 0.5 * (s - 1.0), 0.5 * (t - 1.0), -0.5 * (1.0 + s)};
   double least = 1e300;
   for (unsigned e = 0; e < 4; ++e) {
-    if ((patch.borders >> e & 1U) != 0) least = std::min(least, border_strip - over[e]);
+    if ((patch.borders >> e & 1U) != 0) least = std::min(least, patch.strip - over[e]);
   }
   return least;
 }
@@ -70,6 +70,7 @@ Pass::StripAhead Pass::strip_ahead(const HostState& host, const Side& held, cons
   if (!end.beyond || outside > furthest) return {0.0, clear};
   const double gap = full_gap(held, surface, i, facet, end.weight);
   const double penetration = gap - states_.after(i).offset - distance;
+  if (patch.narrow < Patch::too_narrow) return {0.0, clear};
   if (penetration <= 0.0 || -distance > depth_[at(facet)] || norm(r) > reach()) return {0.0, clear};
   const std::array<Index, 4> node = surface.surface().facet(facet).node;
   double slowest = 1e300, fastest = -1e300;
@@ -82,7 +83,7 @@ Pass::StripAhead Pass::strip_ahead(const HostState& host, const Side& held, cons
   const Vec3 v = velocity_over(host, held, surface, i, {end.weight, facet});
   const double speed = norm(v - dot(v, n) * n) + (fastest - slowest) / side * std::abs(distance);
   if (outside > 1.5 * step_growth * host.dt * speed) return {0.0, clear};
-  const double width = (1.0 - border_flat) * border_strip * side;
+  const double width = (1.0 - border_flat) * patch.strip * side;
   double spread = 0.0;
   for (const double w : end.weight) spread += std::abs(w);
   // |T''| <= 8 in units of the part in which the strip falls; 16 times that, for a step at a quarter of the limit: a flank that a node

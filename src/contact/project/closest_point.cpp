@@ -242,6 +242,7 @@ Fall strip(double overshoot, double width, double wider) {
   const double flat = border_flat * width + wider;
   if (overshoot <= flat) return {};
   const double fall = (1.0 - border_flat) * width;
+  if (fall <= 0.0) return {0.0, 0.0};
   const double u = (overshoot - flat) / fall;
   if (u >= 1.0) return {0.0, 0.0};
   const double rest = 1.0 - u * u;
@@ -249,6 +250,27 @@ Fall strip(double overshoot, double width, double wider) {
 }
 
 }  // namespace
+
+void fit_strips(Patch& patch) {
+  if (patch.borders == 0 || patch.triangle) return;
+  constexpr double left = 0.25;
+  const Bilinear q(patch);
+  const Vec3 normal = cross(q.a, q.b);
+  const double area = squared_norm(normal), along_s = dot(cross(q.a, q.g), normal), along_t = dot(cross(q.g, q.b), normal);
+  double widest = border_strip + border_widening;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double s = corner == 1 || corner == 2 ? 1.0 : -1.0, t = corner >= 2 ? 1.0 : -1.0;
+    const bool over_s = (patch.borders >> (s > 0.0 ? 1 : 3) & 1) != 0, over_t = (patch.borders >> (t > 0.0 ? 2 : 0) & 1) != 0;
+    const double here = area + s * along_s + t * along_t;
+    const double falls = -2.0 * ((over_s ? s * along_s : 0.0) + (over_t ? t * along_t : 0.0));  // per length of strip
+    for (const double fall : {falls, over_s ? -2.0 * s * along_s : 0.0, over_t ? -2.0 * t * along_t : 0.0}) {
+      if (fall > 0.0) widest = std::min(widest, std::max(0.0, (1.0 - left) * here) / fall);
+    }
+  }
+  patch.narrow = std::min(1.0, widest / border_strip);
+  patch.widens = std::clamp((widest - border_strip) / border_widening, 0.0, 1.0);
+  patch.strip = patch.narrow * border_strip;
+}
 
 MeanPlane mean_plane(const Patch& patch) {
   MeanPlane plane;
@@ -315,11 +337,12 @@ Vec3 normal_at(const Patch& patch, double s, double t) {
 Taper taper(const Patch& patch, double s, double t, double wider) {
   if (patch.borders == 0) return {};
   Taper result;
+  const double width = patch.narrow < Patch::too_narrow ? 0.0 : border_strip * patch.narrow;
   const double unit = patch.triangle ? 1.0 : 2.0;  // s and t run over 1 or 2 per side
   // Product over the sides: over(shoot) grows with ds, dt.
   const auto times = [&](int side, double over, double ds, double dt) {
     if ((patch.borders >> side & 1) == 0) return;
-    const Fall one = strip(over, unit * border_strip, unit * wider);
+    const Fall one = strip(over, unit * width, width > 0.0 ? unit * wider : 0.0);
     result.ds = result.ds * one.value + result.value * one.slope * ds;
     result.dt = result.dt * one.value + result.value * one.slope * dt;
     result.dw = result.dw * one.value - result.value * one.slope * unit;

@@ -6,6 +6,8 @@
 // facing borders off each other (its lateral stiffness is -4 phi per width^2), which ends the contact of two bars that meet
 // edge to edge under load. Over the rest T falls from 1 to 0 as (1 - u^2)^2, u the share of the rest. Contact that slides over
 // a free border so ends continuously, and moments stay balanced (weights extrapolate).
+// The bilinear form folds over where its sides converge (an obtuse corner on a border, a slender trapezoid): strips end before that
+// (fit_strips()), and where less than a quarter of one would be left, T falls to nothing at the border itself.
 //
 // Bilinear: projected Newton on |x - X|^2 over the box of (s,t), active set at its bounds, Gauss-Newton where the Hessian is
 // not positive, halved steps until the distance falls: descends from every start, so it always ends in a minimum; a second set
@@ -33,7 +35,13 @@ struct Patch {
   bool triangle = false;
   std::uint8_t borders = 0;     ///< bit e: side e (corner e to e + 1) is a free border
   double strip = border_strip;  ///< where points are looked for beyond them
+  double narrow = 1.0;          ///< share that is left of strips of the usual width,
+  double widens = 1.0;          ///< and of what they widen by
+  static constexpr double too_narrow = 0.25;
 };
+
+/// Makes the strips of a quadrilateral so narrow that the area over its sides nowhere falls below a quarter of that at the border's corner.
+void fit_strips(Patch& patch);
 
 enum class Feature : std::uint8_t { face, edge, corner };
 

@@ -23,10 +23,10 @@ struct Measure {
 /// Gives the closest point on facet f its sign and direction.
 [[nodiscard]] Measure signed_measure(const Side& surface, Index f, const ClosestPoint& closest, const Vec3& x);
 
-/// Facet f extended beyond its free borders by `strip` of a side.
+/// Facet f extended beyond its free borders by `strip` of a side, or as far as its shape allows.
 [[nodiscard]] inline Patch extended(const Side& surface, Index f, double strip) {
   Patch patch = surface.patch(f);
-  patch.strip = strip;
+  if (strip > border_strip) patch.strip = patch.narrow * border_strip + patch.widens * (strip - border_strip);
   return patch;
 }
 

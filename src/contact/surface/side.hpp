@@ -75,7 +75,9 @@ class Side {
   void swap_positions(std::vector<Vec3>& x) { x_.swap(x); }
   [[nodiscard]] Patch patch(Index f) const {
     const std::array<Index, 4>& local = surface_.local()[at(f)];
-    return {{x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, local[2] == local[3], borders_[at(f)]};
+    Patch patch{{x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, local[2] == local[3], borders_[at(f)]};
+    if (patch.borders != 0) fit_strips(patch);
+    return patch;
   }
 
   /// Unit normal of the surface at a closest point: of the facet on a face, the mean of two on an edge, the angle-weighted mean

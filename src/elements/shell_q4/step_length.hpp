@@ -19,8 +19,9 @@
 //               k_z |gamma|^2/mu. gamma is not orthogonal to P on a distorted quad: they add to k_m and to k_s.
 //   warped quads (Ishell 3, 4): hourglass rates see v_z through -2 z2 (P.v_z)/A, forces act on the rotations through z2/2;
 //               the coupling matrix E = k L R^T is not symmetric; its norm is at most
-//               k sqrt((|gamma|^2/mu + z2^2/J) (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu))), which is added to the largest. Membranes (N = 1) have
-//               no rotations; their forces act back on v_z (Profile::WarpedMembrane), E is symmetric: k (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu)).
+//               k sqrt((|gamma|^2/mu + z2^2/J) (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu))), which is added to the largest. Membranes (N = 1)
+//               have no rotations; their forces act back on v_z (Profile::WarpedMembrane), E is symmetric: k (|gamma|^2/mu + 4 z2^2
+//               p_max/(A^2 mu)).
 // Viscous parts: membrane damping has the form of the membrane with d [1 1/2; 1/2 1] and d/3 in shear in place of C. That is not isotropic
 // (d/4 would be); it is majorised by the isotropic d [13 5; 5 13]/12, d/3, exact for squares; the quadratic hourglass
 // terms enter with their tangent 2 c |rate|; linear ones (Ishell 3 rotations, N = 1 with dn) as they are. N = 1 has no bending and no

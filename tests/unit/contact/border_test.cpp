@@ -340,5 +340,44 @@ TEST(Border, steps_through_the_surface_near_its_border) {
   }
 }
 
+// Where the sides of a quadrilateral converge beyond a border its bilinear form folds over: strips end before that. Over a plane facet no
+// node outside the gap is held, whatever its corners. (With strips of a fifth everywhere a round disc meshed from a square, whose corners
+// on the border have up to 174 degrees, held nodes that hovered above it, behind the sheet that had turned over.)
+TEST(Border, strips_do_not_fold_over) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int folded = 0, narrow = 0;
+  for (int shape = 0; shape < 400; ++shape) {
+    // Corner 2 on the way from the diagonal to its place in the square; or the side from 2 to 3 ever shorter.
+    const double way = 0.5 * (any(random) + 1.0);
+    Host host;
+    const Vec3 third = shape % 2 == 0 ? Vec3{way, way, 0.0} : Vec3{1.0, 1.0, 0.0};
+    const Vec3 fourth = shape % 2 == 0 ? Vec3{-1.0, 1.0, 0.0} : Vec3{1.0 - 2.0 * way, 1.0, 0.0};
+    const std::vector<Facet> facets{{{host.add({-1, -1, 0}), host.add({1, -1, 0}), host.add(third), host.add(fourth)}}};
+    Patch patch{{host.x[0], host.x[1], host.x[2], host.x[3]}, false, 15};
+    fit_strips(patch);
+    if (patch.narrow < 1.0) ++narrow;
+    std::vector<Index> nodes;
+    for (int k = 0; k < 60; ++k) nodes.push_back(host.add({2.0 * any(random), 2.0 * any(random), 0.11}, 1.0));
+    const std::vector<double> stiffness(nodes.size(), 1.0);
+    Interface i = Interface::nodes_to_surface(nodes, stiffness, Surface(facets), still(0.1));
+    set_stiffness(i, 1, 1, 1.0);
+    host.contact(i);
+    if (host.last.in_contact > 0) ++folded;
+    // The area over the strips does not change its sign.
+    for (const double wide : {patch.strip, patch.strip + patch.widens * border_widening}) {
+      for (const double s : {-1.0 - 2.0 * wide, 1.0 + 2.0 * wide}) {
+        for (const double t : {-1.0 - 2.0 * wide, 1.0 + 2.0 * wide}) {
+          const std::array<Vec3, 2> along = tangents(patch, s, t);
+          EXPECT_GE(cross(along[0], along[1]).z, 0.0) << shape;
+        }
+      }
+    }
+  }
+  std::printf("  of 400 quadrilaterals %d have narrow strips, %d hold a node outside the gap\n", narrow, folded);
+  EXPECT_EQ(folded, 0);
+  EXPECT_GT(narrow, 50);
+}
+
 }  // namespace
 }  // namespace abut::contact

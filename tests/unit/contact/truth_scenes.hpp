@@ -170,9 +170,10 @@ class Oracle {
     const double w = x < 0.1 ? 5 * x * x : x < 0.65 ? x - 0.05 : x < 1.05 ? 0.8 - 1.25 * (1.05 - x) * (1.05 - x) : 0.8;
     const double s = m.closest.s, t = m.closest.t;
     std::array<double, 4> over{-0.5 * (t + 1), 0.5 * (s - 1), 0.5 * (t - 1), -0.5 * (s + 1)};  // of sides 0 to 3, in lengths of the side
+    const double ends = patch.narrow < 0.25 ? 0.0 : 0.2 * patch.narrow + w * patch.widens;
     if (patch.triangle) over = {-t, s + t - 1, -s, 0};
     for (int e = 0; e < (patch.triangle ? 3 : 4); ++e) {
-      if ((patch.borders >> e & 1) != 0 && over[static_cast<std::size_t>(e)] >= 0.2 + w) return true;
+      if ((patch.borders >> e & 1) != 0 && over[static_cast<std::size_t>(e)] >= ends) return true;
     }
     return false;
   }
