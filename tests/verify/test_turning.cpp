@@ -148,7 +148,10 @@ TEST(Turning, WarpedMembranesKeepEnergyAndMomentum) {
       abut::cycle::RunOptions options;
       options.profile = profile;
       Recorder r;
-      abut::cycle::run(s.model, options, r);
+      const auto report = abut::cycle::run(s.model, options, r);
+      if (profile.warped_membrane == Profile::WarpedMembrane::balanced) {
+        EXPECT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished);
+      }
       Vec3 before, after;
       double size = 0.0;
       for (std::size_t n = 0; n < s.model.node_x.size(); ++n) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 
 #include "abut/contact/interface.hpp"
+#include "contact/enforce/side_loads.hpp"
 
 namespace abut::contact {
 
@@ -22,17 +23,26 @@ namespace abut::contact {
   return std::max(0.0, dot(n, host.mobility[static_cast<std::size_t>(host.constrained[i])] * n));
 }
 
-/// Springs that act on the motion of a pair together with its own: what they do to a node counts as the pair's.
+/// Springs that act on the motion of a pair together with its own, and push in proportion to their stiffness: what they do to a node counts
+/// as the pair's.
 struct Springs {
   double passes = 1.0;     ///< as strong as the pair's, where no more is known
-  double stiffness = 0.0;  ///< the pair's, beside which a mobility's is seen; 0: one spring alone
+  double stiffness = 0.0;  ///< that the pair has told the host of, beside which what is known of a body's springs is seen; 0: one spring alone
+  double own = 0.0;        ///< its kappa phi'', beside which those of this interface are seen
 
+  /// Springs on a node in the last step, over the pair's; 0: not known.
+  [[nodiscard]] double on(const HostState& host, Index node, const SideLoads& loads, Index s) const {
+    if (stiffness <= 0.0) return 0.0;
+    const Index entry = host.constrained.empty() ? no_index : host.constrained[static_cast<std::size_t>(node)];
+    const double of_body = entry == no_index ? 0.0 : host.mobility[static_cast<std::size_t>(entry)].stiffness;
+    if (of_body > 0.0) return of_body / stiffness;
+    return own > 0.0 ? static_cast<double>(loads.springs_before[static_cast<std::size_t>(s)]) / own : 0.0;
+  }
   /// w^2 times their number, for a node that the pair moves with weight +-w.
+  /// @param known   as on() has it
   /// @param spread  sum of all w of the facet: 1, or more where the node is beside it and some corners are pulled
-  [[nodiscard]] double over(const HostState& host, Index node, double w, double spread) const {
-    const Index entry = host.constrained.empty() || stiffness <= 0.0 ? no_index : host.constrained[static_cast<std::size_t>(node)];
-    const double known = entry == no_index ? 0.0 : host.mobility[static_cast<std::size_t>(entry)].stiffness;
-    return known > 0.0 ? w * std::max(w, known / stiffness) / spread : passes * w * w;
+  [[nodiscard]] double over(double known, double w, double spread) const {
+    return known > 0.0 ? w * std::max(w, known) / spread : passes * w * w;
   }
 };
 

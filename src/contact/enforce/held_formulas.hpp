@@ -261,14 +261,20 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   // Motion.
   V<T> v = simd::gather3(b.v, b.node_v + k, T());
   V<T> v_last = v;
-  T inverse_mass = inverse(load<T>(b.mass[4] + k));
+  // As Springs has it.
+  const T reach_of_weights = (simd::abs(h[0]) + simd::abs(h[1])) + (simd::abs(h[2]) + simd::abs(h[3]));
+  const T over_weights = one / reach_of_weights;
+  const auto counted = [&](int i, T w, T over) {
+    const T known = load<T>(b.springs[i] + k);
+    return simd::select(known > zero, w * simd::max(w, known) * over, T(rules.pairs) * (w * w));
+  };
+  T inverse_mass = counted(4, one, one) * inverse(load<T>(b.mass[4] + k));
   for (int i = 0; i < 4; ++i) {
     const V<T> vi = simd::gather3(b.v, b.corner_v[i] + k, T());
     v = v - h[i] * vi;
     v_last = v_last - load<T>(b.last[i] + k) * vi;
-    inverse_mass = inverse_mass + (h[i] * h[i]) * inverse(load<T>(b.mass[i] + k));
+    inverse_mass = inverse_mass + counted(i, simd::abs(h[i]), over_weights) * inverse(load<T>(b.mass[i] + k));
   }
-  inverse_mass = T(rules.pairs) * inverse_mass;
   const T step = T(rules.step);
   const T rate = dot(v, n), closing = -rate;
   store(b.rate + k, rate);
@@ -315,7 +321,8 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   const T extra = simd::sqrt(dot(sideways, sideways)) * (slope_of_phi / phi);
   // Over a strip weights extrapolate.
   const T spread = simd::select(simd::max(simd::abs(q.s), simd::abs(q.t)) > one,
-                                half * (one + ((simd::abs(h[0]) + simd::abs(h[1])) + (simd::abs(h[2]) + simd::abs(h[3])))), one);
+                                half * (one + reach_of_weights), one);
+  store(b.spring + k, kappa * tangent);
   store(b.step_stiffness + k, spread * (T(rules.step_factor) * (kappa * tangent + extra)));
 
   if (rules.rubs) {

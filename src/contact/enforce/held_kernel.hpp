@@ -52,6 +52,7 @@ struct HeldBatch {
   // In.
   std::int32_t node[size], node_v[size], corner[4][size], corner_v[4][size];
   double mass[5][size];              ///< of the corners, of the node; 0: infinite
+  double springs[5][size];           ///< on the corners, on the node, in the last step, over the pair's own; 0: not known
   double corner_stiffness[4][size];  ///< K1 at the corners
   double node_stiffness[size];       ///< K2
   double reach[size];                ///< the facet with its strips extends to |s|, |t| = sqrt(reach)
@@ -68,7 +69,7 @@ struct HeldBatch {
   double normal[3][size], weight[4][size];
   double force[size];  ///< |normal force|
   double on_node[3][size], on_corner[4][3][size];
-  double potential[size], stiffness[size], step_stiffness[size];
+  double potential[size], stiffness[size], step_stiffness[size], spring[size];
   double rate[size], acceleration[size];
   double approach[size], kinematic_step[size];
   double slip[3][size], slip_normal[3][size], tangential_stiffness[size];

@@ -311,12 +311,7 @@ void OneSided::commit(double) {
     SideLoads& loads = loads_[k];
     loads.work += loads.work_step;
     loads.work_step = 0.0;
-    over_pieces(k, [&](std::size_t begin, std::size_t end) {
-      loads.for_loaded(begin, end, [&loads](std::size_t s) {
-        loads.node(s).force_before = loads.node(s).total();
-        loads.loaded[s] = (loads.loaded[s] & SideLoads::now) != 0 ? SideLoads::now | SideLoads::before : 0;
-      });
-    });
+    over_pieces(k, [&loads](std::size_t begin, std::size_t end) { loads.commit(begin, end); });
   }
   stepped_ = true;
   committed_ = true;
@@ -362,7 +357,7 @@ void OneSided::add_nodal_contact(std::span<NodalContact> nodes) const {
 void OneSided::save(HistoryWriter& out) const {
   // Room at once: as large as it is, it would be in memory twice whenever it grows.
   std::size_t bytes = 256;
-  for (const Side& side : side_) bytes += side.nodes().size() * 2 * sizeof(Vec3);
+  for (const Side& side : side_) bytes += side.nodes().size() * 2 * (sizeof(Vec3) + sizeof(float));
   for (const Pass& pass : pass_) bytes += pass.saved_bytes();
   out.reserve(bytes);
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
@@ -376,6 +371,8 @@ void OneSided::save(HistoryWriter& out) const {
     out.put(loads_[k].work);
     out.put(mean_velocity_[k]);
     out.put_all(loads_[k].forces_before());
+    out.put_all(loads_[k].own_before);
+    out.put_all(loads_[k].springs_before);
     if (committed_) {
       out.put_all(side_[k].x());
     } else {
@@ -402,6 +399,8 @@ void OneSided::load(HistoryReader& in) {
     in.get(mean_velocity_[k]);
     std::vector<Vec3> force(loads_[k].loaded.size());
     in.get_all(force);
+    in.get_all(loads_[k].own_before);
+    in.get_all(loads_[k].springs_before);
     loads_[k].set_forces_before(force);
     in.get_all(loads_[k].x_before);
   }

@@ -259,7 +259,7 @@ void Pass::evaluate_group(const Scene& scene, std::size_t number, Work& work, Gr
       }
       // 7.4.3: anchors are looked at only in groups in which somebody touches.
       Touch& touch = *touch_of[k];
-      finish_node(host, held, surface, held_loads, nodes[k], touch, any, sums);
+      finish_node(scene, nodes[k], touch, any, sums);
       if (!touch.contact) end_contact(scene, nodes[k], touch, any, sums);
     }
     loan.settle(std::span(nodes).first(count));
@@ -312,6 +312,7 @@ void Pass::add_reactions(const GroupSums& sums, const Side& surface, SideLoads& 
       node.reaction_normal += r.normal[k];
       node.reaction_tangential += r.weight[k] * r.tangential;
       node.reaction_stiffness += std::abs(r.weight[k]) * r.stiffness;
+      node.reaction_springs += std::abs(r.weight[k]) * r.springs;
     }
   }
 }

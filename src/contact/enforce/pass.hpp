@@ -108,12 +108,13 @@ class Pass {
       operator Vec3() const { return {x, y, z}; }  // NOLINT: a vector like any other
     };
     Index facet;
-    double stiffness;
+    double stiffness, springs;
     std::array<double, 4> weight;
     std::array<Part, 4> normal;
     Part tangential;
 
-    Reaction(Index f, double k, const std::array<double, 4>& w) : facet(f), stiffness(k), weight(w) {}  // NOLINT
+    /// @param spring  kappa phi'', of which k is made
+    Reaction(Index f, double k, double spring, const std::array<double, 4>& w) : facet(f), stiffness(k), springs(spring), weight(w) {}  // NOLINT
   };
   // Results of `group` consecutive nodes, which one thread handles.
   struct GroupSums {
@@ -241,8 +242,7 @@ class Pass {
   [[nodiscard]] Kinematics kinematics(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch) const;
   /// 1/m of a node with its facet along a unit vector; 0: unknown
   /// @param springs  which act on the same motion; {}: this pair alone
-  [[nodiscard]] double inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch,
-                                    const Vec3& along, const Springs& springs) const;
+  [[nodiscard]] double inverse_mass(const Scene& scene, Index i, const Touch& touch, const Vec3& along, const Springs& springs) const;
   /// A pair that may give no more than it has taken (account.hpp): it began, or came to a facet or deeper into a strip, where it holds
   /// more by the law than it was given on the way there.
   /// @param moved_in  along the normal in the last step
@@ -313,8 +313,7 @@ class Pass {
   /// No other facet can be as near as the one that holds the node, nor store more.
   [[nodiscard]] bool alone(const Scene& scene, const HeldBatch& batch, int lane, Index i, Looks& looks, GroupSums& sums);
   void finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane, Index i, GroupSums& sums);
-  void finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
-                   GroupSums& sums);
+  void finish_node(const Scene& scene, Index i, Touch& touch, bool rub, GroupSums& sums);
   [[nodiscard]] Vec3 rub_by_return_mapping(const HostState& host, const Side& surface, const Touch& touch, const Kinematics& motion,
                                            double limit, double fraction, const NodeState& before, NodeState& after,
                                            PassTotals& totals) const;

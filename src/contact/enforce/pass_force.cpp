@@ -27,16 +27,18 @@ Pass::Kinematics Pass::kinematics(const HostState& host, const Side& held, const
   return k;
 }
 
-double Pass::inverse_mass(const HostState& host, const Side& held, const Side& surface, Index i, const Touch& touch, const Vec3& along,
-                          const Springs& springs) const {
+double Pass::inverse_mass(const Scene& scene, Index i, const Touch& touch, const Vec3& along, const Springs& springs) const {
+  const auto& [host, held, surface, held_loads, surface_loads] = scene;
   const std::array<Index, 4>& corner = surface.surface().local()[at(touch.facet)];
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);
-  double sum = springs.over(host, held.nodes()[at(i)], 1.0, 1.0) * inverse_mass_of(host, held.nodes()[at(i)], along);
+  const Index node = held.nodes()[at(i)];
+  double sum = springs.over(springs.on(host, node, held_loads, i), 1.0, 1.0) * inverse_mass_of(host, node, along);
   for (std::size_t c = 0; c < 4; ++c) {
-    const double w = touch.weight[c];
-    const Index node = surface.nodes()[at(corner[c])];
-    if (w != 0.0) sum += springs.over(host, node, std::abs(w), spread) * inverse_mass_of(host, node, along);
+    const double w = std::abs(touch.weight[c]);
+    if (w == 0.0) continue;
+    const Index n = surface.nodes()[at(corner[c])];
+    sum += springs.over(springs.on(host, n, surface_loads, corner[c]), w, spread) * inverse_mass_of(host, n, along);
   }
   return sum;
 }
@@ -79,8 +81,8 @@ bool Pass::keeps_its_account(const Touch& touch, const NodeState& before, double
          ((dot(before.normal, touch.normal) < turns || before.facet != touch.facet) && made - before.made > at_once * touch.pair.potential);
 }
 
-void Pass::finish_node(const HostState& host, const Side& held, const Side& surface, SideLoads& held_loads, Index i, Touch& touch, bool rub,
-                       GroupSums& sums) {
+void Pass::finish_node(const Scene& scene, Index i, Touch& touch, bool rub, GroupSums& sums) {
+  const auto& [host, held, surface, held_loads, surface_loads] = scene;
   PassTotals& totals = sums.totals;
   const NodeState& before = states_.before(i);
   NodeState& after = states_.after(i);
@@ -93,14 +95,14 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   }
   const double penetration = touch.penetration;
   const Kinematics motion = kinematics(host, held, surface, i, touch);
-  const double pair_inverse_mass = options_.damping > 0.0 ? inverse_mass(host, held, surface, i, touch, touch.normal, {}) : 0.0;
+  const double pair_inverse_mass = options_.damping > 0.0 ? inverse_mass(scene, i, touch, touch.normal, {}) : 0.0;
   if (touch.full_gap > 0.0 && -motion.rate * host.dt >= -passed_over * penetration) {
     totals.largest_approach = std::max(totals.largest_approach, -motion.rate * host.dt / touch.full_gap);
   }
   // Speed at which P grows: by motion, and by a gap that grows in a gradual start.
   const double grown = growth(before);
   const double closing = -motion.rate + (grown > 0.0 && host.dt > 0.0 ? grown / host.dt : 0.0);
-  double step_stiffness = 0.0;
+  double step_stiffness = 0.0, spring = 0.0;
 
   // Stiffness for the coming step, also where contact may begin in it.
   if (rules.limits_step) {
@@ -109,7 +111,8 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     if (may_touch && touch.pair_open) { touch.pair = force_of(held, surface, touch.measure, i, touch.gap, touch.widens); }
     if (touch.contact || (may_touch && touch.pair.stiffness > 0.0)) {
       const double reached = std::max(penetration + step_growth * host.dt * std::max(closing, 0.0), 1e-12 * size_);
-      double tangent = touch.pair.stiffness * touch.law.tangent(reached) + touch.pair.extra_tangent;
+      spring = touch.pair.stiffness * touch.law.tangent(reached);
+      double tangent = spring + touch.pair.extra_tangent;
       if (options_.rubs()) {
         const double pressure = surface.pressure(touch.facet, touch.pair.magnitude);
         const double mu = friction_coefficient(options_.friction_law, options_.friction, pressure, norm(motion.tangential_velocity));
@@ -125,7 +128,9 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       double spread = 0.0;
       for (const double w : touch.weight) spread += std::abs(w);
       tangent *= 0.5 * (1.0 + spread);
-      held_loads.load(i).own_stiffness += tangent;
+      SideLoads::Node& load = held_loads.load(i);
+      load.own_stiffness += tangent;
+      load.own_springs += spring;
       step_stiffness = tangent;
     }
     foresee_strips(host, held, surface, held_loads, i, sums);
@@ -155,7 +160,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
 
   if (!touch.contact) {  // history of a contact that ends: closed by the caller
     if (step_stiffness > 0.0) {
-      Reaction& reaction = sums.reactions.emplace_back(touch.facet, step_stiffness, touch.weight);
+      Reaction& reaction = sums.reactions.emplace_back(touch.facet, step_stiffness, spring, touch.weight);
       reaction.normal.fill({});
       reaction.tangential = Vec3{};
     }
@@ -174,16 +179,17 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
   double fraction = 1.0;  // of the last step in contact
   double factor = 1.0;
   const double moved_in = closing * host.dt;
-  // With two passes the facing surface's own springs act on this pair too, as strongly as this one where the meshes face.
-  // What the host knows of other springs is as old as its mobilities: a cycle.
+  // What is known of other springs is a cycle old. Where nothing is, with two passes the facing surface's own springs act on this pair too,
+  // as strongly as this one where the meshes face.
   const double as_known = before.held != 0 && before.step_stiffness > 0.0F ? static_cast<double>(before.step_stiffness) : step_stiffness;
-  const Springs springs{two_passes_ ? 2.0 : 1.0, as_known};
-  const double inverse_mass = this->inverse_mass(host, held, surface, i, touch, touch.normal, springs);
+  const auto own_before = static_cast<double>(held_loads.own_before[at(i)]);
+  const Springs springs{two_passes_ ? 2.0 : 1.0, as_known, own_before > 0.0 ? own_before : spring};
+  const double inverse_mass = this->inverse_mass(scene, i, touch, touch.normal, springs);
   if (fresh && moved_in > penetration) fraction = penetration / moved_in;
   double stored = touch.pair.potential;
   const Vec3 velocity = motion.rate * touch.normal + motion.tangential_velocity;
   // On bodies an account costs little, and pairs that leave one after the other let the step grow under those that stay.
-  const double alone = host.mobility.empty() ? 0.0 : springs.passes * this->inverse_mass(host, held, surface, i, touch, touch.normal, {});
+  const double alone = host.mobility.empty() ? 0.0 : springs.passes * this->inverse_mass(scene, i, touch, touch.normal, {});
   const double at_most = std::max(inverse_mass, alone);
   const double lightness = at_most * touch.pair.stiffness * touch.law.tangent(penetration) * host.dt * host.dt;
   // Over a fold the law's trapezoidal work misses its potential at any stiffness: where the normal turns within a step, or where a node
@@ -232,7 +238,7 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
       // Not more than what is left gives the bodies in the coming step; what it then holds is what it has taken.
       const double size = norm(touch.pair.on_node);
       const Vec3 along = touch.pair.on_node / size;
-      const double mobile = this->inverse_mass(host, held, surface, i, touch, along, springs);
+      const double mobile = this->inverse_mass(scene, i, touch, along, springs);
       const double rate = along_push / size;
       if (mobile > 0.0 || rate > 0.0)
         factor = std::min(factor, last_force({rate, host.dt, coming, mobile, others, std::max(0.0, -made)}) / size);
@@ -295,8 +301,11 @@ void Pass::finish_node(const HostState& host, const Side& held, const Side& surf
     tangential = share * on_surface;
     totals.tangential -= on_surface;
   }
+  const double push = norm(touch.pair.on_node);
   const auto add = [&](Index facet, const std::array<double, 4>& weight, const std::array<Vec3, 4>& force, bool equal) {
-    Reaction& reaction = sums.reactions.emplace_back(facet, step_stiffness, weight);
+    // Of several facets each has what it carries.
+    const double carried = touch.further > 0 && push > 0.0 ? norm((force[0] + force[1]) + (force[2] + force[3])) / push : 1.0;
+    Reaction& reaction = sums.reactions.emplace_back(facet, step_stiffness, std::min(carried, 1.0) * spring, weight);
     for (std::size_t c = 0; c < 4; ++c) {
       reaction.normal[c] = equal ? factor * force[c] - (share * weight[c] * after.damping) * touch.normal : factor * force[c];
     }

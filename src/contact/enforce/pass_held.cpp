@@ -60,10 +60,13 @@ void Pass::put_in(const Scene& scene, Index i, HeldBatch& batch) const {
   batch.node_v[k] = 3 * host_node;
   batch.mass[4][k] = plain_mass(scene.host, host_node);
   batch.node_stiffness[k] = scene.held.node_stiffness(i);
+  const double own = static_cast<double>(scene.held_loads.own_before[at(i)]), over_own = own > 0.0 ? 1.0 / own : 0.0;
+  batch.springs[4][k] = over_own * static_cast<double>(scene.held_loads.springs_before[at(i)]);
   for (std::size_t c = 0; c < 4; ++c) {
     batch.corner[c][k] = 3 * corner[c];
     batch.corner_v[c][k] = 3 * host_corner[c];
     batch.mass[c][k] = plain_mass(scene.host, host_corner[c]);
+    batch.springs[c][k] = over_own * static_cast<double>(scene.surface_loads.springs_before[at(corner[c])]);
     batch.corner_stiffness[c][k] = surface.corner_stiffness(corner[c]);
     batch.anchor[c][k] = before.anchor.weight[c];
     batch.last[c][k] = before.last.weight[c];
@@ -110,7 +113,9 @@ void Pass::run_batch(const Scene& scene, HeldBatch& batch) const {
   for (auto* four : {&batch.corner, &batch.corner_v}) {
     for (auto& one : *four) repeat(one);
   }
-  for (auto& one : batch.mass) repeat(one);
+  for (auto* five : {&batch.mass, &batch.springs}) {
+    for (auto& one : *five) repeat(one);
+  }
   for (auto* four : {&batch.corner_stiffness, &batch.anchor, &batch.last, &batch.end}) {
     for (auto& one : *four) repeat(one);
   }
@@ -168,12 +173,13 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
   totals.stepped += batch.stepped[k];
 
   const std::array<double, 4> weight{batch.weight[0][k], batch.weight[1][k], batch.weight[2][k], batch.weight[3][k]};
-  Reaction& reaction = sums.reactions.emplace_back(before.facet, batch.step_stiffness[k], weight);
+  Reaction& reaction = sums.reactions.emplace_back(before.facet, batch.step_stiffness[k], batch.spring[k], weight);
   for (std::size_t c = 0; c < 4; ++c) reaction.normal[c] = get(batch.on_corner[c]);
   const Vec3 on_node = get(batch.on_node);
   SideLoads::Node& load = loads.load(i);
   load.own_normal = on_node;
   load.own_stiffness += batch.step_stiffness[k];
+  load.own_springs += batch.spring[k];
   totals.normal += on_node;
 
   if (options_.rubs()) {

@@ -46,7 +46,7 @@ void Pass::foresee_strips(const HostState& host, const Side& held, const Side& s
     clear = std::min(clear, strip.clear);
     if (strip.stiffness <= 0.0) continue;
     largest = std::max(largest, strip.stiffness);
-    Reaction& reaction = sums.reactions.emplace_back(entry.facet, strip.stiffness, end.weight);
+    Reaction& reaction = sums.reactions.emplace_back(entry.facet, strip.stiffness, 0.0, end.weight);
     reaction.normal.fill({});
     reaction.tangential = Vec3{};
   }

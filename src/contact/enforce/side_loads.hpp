@@ -20,11 +20,13 @@ struct SideLoads {
   struct Node {
     Vec3 own_normal, own_tangential, reaction_normal, reaction_tangential;
     double own_stiffness = 0.0, reaction_stiffness = 0.0;
+    double own_springs = 0.0, reaction_springs = 0.0;  ///< kappa phi'' of the pairs alone
     Vec3 force_before;  ///< of the last committed step
 
     [[nodiscard]] Vec3 total() const { return (own_normal + own_tangential) + (reaction_normal + reaction_tangential); }
   };
   std::vector<Vec3> x_before;  ///< of the last committed step
+  std::vector<float> own_before, springs_before;  ///< own springs, own and reaction springs of that step
   /// Per block of nodes: the largest square of a node's motions in the last and in the coming step, less the other side's mean motion.
   static constexpr std::size_t block = MotionArgs::block;
   std::vector<double> squared_motion;
@@ -38,6 +40,8 @@ struct SideLoads {
   void resize(std::size_t nodes);
   /// Those of nodes begin to end - 1.
   void clear(std::size_t begin, std::size_t end);
+  /// What nodes begin to end - 1 carry becomes what they carried before.
+  void commit(std::size_t begin, std::size_t end);
   /// @pre loaded[s] != 0
   [[nodiscard]] Node& node(std::size_t s) { return pages_[s / page][s % page]; }
   [[nodiscard]] const Node& node(std::size_t s) const { return pages_[s / page][s % page]; }
@@ -64,6 +68,7 @@ struct SideLoads {
   }
   /// #nodes
   [[nodiscard]] std::vector<Vec3> forces_before() const;
+  /// @pre springs_before is set
   void set_forces_before(std::span<const Vec3> force);
 
  private:

@@ -251,7 +251,7 @@ TEST(History, refuses_other_versions_and_other_interfaces) {
 
   std::vector<std::byte> old = blob;
   old[8] = std::byte{1};
-  EXPECT_NE(restore_refusal(same, old).find("version 1; this library reads version 7"), std::string::npos) << restore_refusal(same, old);
+  EXPECT_NE(restore_refusal(same, old).find("version 1; this library reads version 8"), std::string::npos) << restore_refusal(same, old);
   Interface nodes = make(s, Kind::nodes), both = make(s, Kind::both), reference = make(s, Kind::two, Rules::reference());
   for (Interface* other : {&nodes, &both, &reference}) {
     EXPECT_NE(restore_refusal(*other, blob).find("another interface"), std::string::npos) << restore_refusal(*other, blob);

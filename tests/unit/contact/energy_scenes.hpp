@@ -81,6 +81,40 @@ inline Bounce plates_meet(Rules rules, double gap, double hhk, double shift) {
   return result;
 }
 
+// A facet of free nodes, or several, falls on one immobile facet: only one of the passes has anything to hold.
+inline Bounce on_a_large_facet(double gap, double hhk, int facets) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const double speed = 0.01, pair = 0.5 / facets / facets;  // at the corners: two equal springs of 1/4 in series, over facets^2
+  const double h = std::sqrt(hhk / pair);
+  Bounce result;
+  const int shots = 100;
+  for (int shot = 0; shot < shots; ++shot) {
+    Host host;
+    const auto lower = grid(host, 1, 1, -3, 3, -3, 3, flat);
+    const std::size_t first = host.x.size();
+    const double start = gap + speed * h * (2.0 + uniform(random));
+    const auto upper = grid(host, facets, facets, -1, 1, -1, 1, [&](double, double) { return start; }, false, false, 1.0);
+    for (std::size_t n = first; n < host.x.size(); ++n) host.v[n].z = -speed;
+    Options o;
+    o.gap = gap;
+    o.stiffness_scale = 1.0;
+    Interface i = Interface::two_surfaces(Surface(lower), Surface(upper), o);
+    set_stiffness(i, 0, lower.size(), pair);
+    set_stiffness(i, 1, upper.size(), pair);
+    bool touched = false;
+    for (int step = 0; step < 200; ++step) {
+      host.step(i, h);
+      touched = touched || host.last.in_contact > 0;
+      if (touched && host.last.in_contact == 0) break;
+    }
+    const double error = std::abs(host.last.made) / (0.5 * static_cast<double>(host.x.size() - first) * speed * speed);
+    result.mean += error / shots;
+    result.worst = std::max(result.worst, error);
+  }
+  return result;
+}
+
 struct Path {
   double net = 0.0;      ///< |CX| after the closed path
   double largest = 0.0;  ///< largest CE on it
