@@ -275,8 +275,10 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
     std::vector<double> sizes, stiffness;
     if (!input.side[0].nodes.empty()) {
       sizes = face_sizes(model, *owners, input.side[0].nodes, x);
-      stiffness =
-          input.both_sides ? secondary_stiffness(model, input.side[0].nodes, x) : node_stiffness(model, *owners, input.side[0].nodes, x);
+      const std::span<const Index> held_nodes = input.side[0].nodes;
+      stiffness = input.both_sides ? secondary_stiffness(model, held_nodes, x)
+                                   : node_stiffness(node_shares(model, *owners, held_nodes, x, mean_stiffness(input.side[1].stiffness)),
+                                                    held_nodes.size());
       input.side[0].size = sizes;
       input.side[0].stiffness = stiffness;
     }

@@ -75,11 +75,12 @@ RunInterface make_interface(const model::Model& model, Index index, const Profil
   if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
     const model::Surface& main = surface_of(t5->surface);
     const contact::Options options = one_sided_options(model, card, profile, choices);
-    RunInterface r{
-        index,
-        contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(model, *owners, t5->nodes, x), make_surface(main), options),
-        {held_side(t5->nodes), make_side(model, main, own, x, options.automatic_gap)}};
-    r.sides[0].shares = node_shares(model, *owners, t5->nodes, x);
+    RunInterface::Side facets = make_side(model, main, own, x, options.automatic_gap);
+    std::vector<NodeShare> shares = node_shares(model, *owners, t5->nodes, x, mean_stiffness(facets.stiffness));
+    RunInterface r{index,
+                   contact::Interface::nodes_to_surface(t5->nodes, node_stiffness(shares, t5->nodes.size()), make_surface(main), options),
+                   {held_side(t5->nodes), std::move(facets)}};
+    r.sides[0].shares = std::move(shares);
     if (options.automatic_gap) {
       const std::vector<double> thickness = nodal_thickness(model);
       for (const Index n : t5->nodes) r.sides[0].thickness.push_back(thickness[static_cast<std::size_t>(n)]);

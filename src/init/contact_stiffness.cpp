@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace abut::init {
 
@@ -156,7 +157,7 @@ std::vector<NodeShare> secondary_shares(const model::Model& model, std::span<con
 }
 
 std::vector<NodeShare> node_shares(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
-                                   std::span<const Vec3> x) {
+                                   std::span<const Vec3> x, double of_others) {
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> position(static_cast<std::size_t>(model.node_count()), none);
   for (std::size_t k = 0; k < nodes.size(); ++k) position[static_cast<std::size_t>(nodes[k])] = k;
@@ -178,14 +179,22 @@ std::vector<NodeShare> node_shares(const model::Model& model, const FaceOwners& 
       if (node != none) shares.push_back({node, face.element, share});
     }
   }
+  std::vector<bool> has(nodes.size(), false);
+  for (const NodeShare& s : shares) has[s.node] = true;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!has[i]) shares.push_back({i, {}, of_others});
+  }
   std::stable_sort(shares.begin(), shares.end(), [](const NodeShare& a, const NodeShare& b) { return a.node < b.node; });
   return shares;
 }
 
-std::vector<double> node_stiffness(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
-                                   std::span<const Vec3> x) {
-  std::vector<double> out(nodes.size(), 0.0);
-  for (const NodeShare& s : node_shares(model, owners, nodes, x)) out[s.node] += s.stiffness;
+double mean_stiffness(std::span<const double> facets) {
+  return facets.empty() ? 0.0 : std::accumulate(facets.begin(), facets.end(), 0.0) / static_cast<double>(facets.size());
+}
+
+std::vector<double> node_stiffness(std::span<const NodeShare> shares, std::size_t nodes) {
+  std::vector<double> out(nodes, 0.0);
+  for (const NodeShare& s : shares) out[s.node] += s.stiffness;
   return out;
 }
 

@@ -32,10 +32,12 @@ struct NodeShare {
 [[nodiscard]] std::vector<NodeShare> secondary_shares(const model::Model& model, std::span<const Index> nodes, std::span<const Vec3> x);
 /// Own stiffness of nodes that no surface describes (TYPE5): a quarter (triangles: a third) of E t of every shell around
 /// the node and of B A^2/V of every free solid face; where a shell lies on a face, the shell's (T18). Node after node.
+/// @param of_others  that of nodes on none of these (no element)
 [[nodiscard]] std::vector<NodeShare> node_shares(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
-                                                 std::span<const Vec3> x);
-/// Their sums, #nodes.
-[[nodiscard]] std::vector<double> node_stiffness(const model::Model& model, const FaceOwners& owners, std::span<const Index> nodes,
-                                                 std::span<const Vec3> x);
+                                                 std::span<const Vec3> x, double of_others);
+/// Of the facets of a surface: what a node without a stiffness of its own (a mass, a node of a rigid body) has in TYPE5, for K = s K1/2.
+[[nodiscard]] double mean_stiffness(std::span<const double> facets);
+/// Sums of shares over their nodes, #nodes.
+[[nodiscard]] std::vector<double> node_stiffness(std::span<const NodeShare> shares, std::size_t nodes);
 
 }  // namespace abut::init

@@ -26,9 +26,10 @@ namespace abut::contact {
 /// Springs that act on the motion of a pair together with its own, and push in proportion to their stiffness: what they do to a node counts
 /// as the pair's.
 struct Springs {
-  double passes = 1.0;     ///< as strong as the pair's, where no more is known
-  double stiffness = 0.0;  ///< that the pair has told the host of, beside which what is known of a body's springs is seen; 0: one spring alone
-  double own = 0.0;        ///< its kappa phi'', beside which those of this interface are seen
+  double passes = 1.0;  ///< as strong as the pair's, where no more is known
+  double stiffness =
+      0.0;           ///< that the pair has told the host of, beside which what is known of a body's springs is seen; 0: one spring alone
+  double own = 0.0;  ///< its kappa phi'', beside which those of this interface are seen
 
   /// Springs on a node in the last step, over the pair's; 0: not known.
   [[nodiscard]] double on(const HostState& host, Index node, const SideLoads& loads, Index s) const {

@@ -320,8 +320,7 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   }
   const T extra = simd::sqrt(dot(sideways, sideways)) * (slope_of_phi / phi);
   // Over a strip weights extrapolate.
-  const T spread = simd::select(simd::max(simd::abs(q.s), simd::abs(q.t)) > one,
-                                half * (one + reach_of_weights), one);
+  const T spread = simd::select(simd::max(simd::abs(q.s), simd::abs(q.t)) > one, half * (one + reach_of_weights), one);
   store(b.spring + k, kappa * tangent);
   store(b.step_stiffness + k, spread * (T(rules.step_factor) * (kappa * tangent + extra)));
 

@@ -114,7 +114,8 @@ class Pass {
     Part tangential;
 
     /// @param spring  kappa phi'', of which k is made
-    Reaction(Index f, double k, double spring, const std::array<double, 4>& w) : facet(f), stiffness(k), springs(spring), weight(w) {}  // NOLINT
+    Reaction(Index f, double k, double spring, const std::array<double, 4>& w)
+        : facet(f), stiffness(k), springs(spring), weight(w) {}  // NOLINT
   };
   // Results of `group` consecutive nodes, which one thread handles.
   struct GroupSums {

@@ -21,11 +21,11 @@ struct SideLoads {
     Vec3 own_normal, own_tangential, reaction_normal, reaction_tangential;
     double own_stiffness = 0.0, reaction_stiffness = 0.0;
     double own_springs = 0.0, reaction_springs = 0.0;  ///< kappa phi'' of the pairs alone
-    Vec3 force_before;  ///< of the last committed step
+    Vec3 force_before;                                 ///< of the last committed step
 
     [[nodiscard]] Vec3 total() const { return (own_normal + own_tangential) + (reaction_normal + reaction_tangential); }
   };
-  std::vector<Vec3> x_before;  ///< of the last committed step
+  std::vector<Vec3> x_before;                     ///< of the last committed step
   std::vector<float> own_before, springs_before;  ///< own springs, own and reaction springs of that step
   /// Per block of nodes: the largest square of a node's motions in the last and in the coming step, less the other side's mean motion.
   static constexpr std::size_t block = MotionArgs::block;

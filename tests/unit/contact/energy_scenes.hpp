@@ -94,7 +94,8 @@ inline Bounce on_a_large_facet(double gap, double hhk, int facets) {
     const auto lower = grid(host, 1, 1, -3, 3, -3, 3, flat);
     const std::size_t first = host.x.size();
     const double start = gap + speed * h * (2.0 + uniform(random));
-    const auto upper = grid(host, facets, facets, -1, 1, -1, 1, [&](double, double) { return start; }, false, false, 1.0);
+    const auto upper = grid(
+        host, facets, facets, -1, 1, -1, 1, [&](double, double) { return start; }, false, false, 1.0);
     for (std::size_t n = first; n < host.x.size(); ++n) host.v[n].z = -speed;
     Options o;
     o.gap = gap;

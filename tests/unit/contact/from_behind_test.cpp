@@ -136,7 +136,7 @@ void overlaps_are_bounded(std::span<const double> heights, std::span<const doubl
             for (const double gap : gaps) {
               const double growth = largest_growth({lower, upper, fixed, shift, height, speed, gap});
               EXPECT_LT(growth, 1.3) << lower << upper << fixed << " shift " << shift << " height " << height << " speed " << speed
-                                      << " gap " << gap;
+                                     << " gap " << gap;
               worst = std::max(worst, growth);
               ++plates;
             }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,25 @@ TEST(Keywords, GroupsOfNodesNameTheSameNodes) {
     }
     EXPECT_NEAR(run.balance().ke, 0.5 * density * 0.1 * squared_norm(speed), 1e-18) << way;
   }
+}
+
+// Nodes of TYPE5 that are on no shell and no free face of a solid (a point mass) are held with half of the surface's stiffness: on a spring
+// of s K1/2, K1 = E t, a mass m that comes with v is turned round in half a period, and leaves with v.
+TEST(Keywords, PointMassesBounceInType5) {
+  const double mass = 1e-3, speed = 0.1, gap = 0.1, start = 0.11;
+  const std::string deck = materials + nodes(1, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}) + nodes(11, {{0.3, 0.2, start}}) +
+                           part(1, 2, 1) + element("SHELL", 1, 1, {1, 2, 3, 4}) + group("GRNOD/NODE", 1, {1, 2, 3, 4}) + bcs("111 111", 1) +
+                           group("GRNOD/NODE", 2, {11}) + group("SURF/PART", 1, {1}) + "/ADMAS/0/1\nmass\n" + fmt::format("{:>20g}", mass) +
+                           ints({2}) + "/INIVEL/TRA/1\nfall\n" + reals({0, 0, -speed}).substr(0, 60) + ints({2, 0}) +
+                           "/INTER/TYPE5/1\nfive\n" + ints({2, 1}) + reals({0.2, 0, gap, 0, 0}) +
+                           "       000         0         0         0\n         0         0\n";
+  const double k = 0.5 * 0.2 * young * 0.1;
+  const double half_period = std::numbers::pi * std::sqrt(mass / k);
+  const abut::Run run = run_of(deck, engine(0.1 + half_period + 0.2));
+  const double z = run.displacements()[4].z + start;
+  EXPECT_NEAR(run.velocities()[4].z, speed, 1e-3 * speed);
+  // The law stiffens: by P/gap some 2 % sooner.
+  EXPECT_NEAR(z, gap + speed * (run.time() - 0.1 - half_period), 0.05 * speed * half_period);
 }
 
 // Every way to name the skin of a brick and a plate of a quadrilateral and two triangles above it: the same contact, impulse twice the
