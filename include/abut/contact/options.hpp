@@ -111,7 +111,8 @@ struct StepResult {
   double elastic = 0.0;        ///< CE: stored now in normal springs and elastic stick
   double friction_work = 0.0;  ///< FW: dissipated by slip, never decreases
   double damping_work = 0.0;   ///< DW
-  double start_work = 0.0;     ///< SW: work that the growing gap of a gradual start has put in
+  double start_work =
+      0.0;  ///< SW: work that the growing gap of a gradual start, or a time window that opens over nodes in the gap, has put in
   /// CX = discrete work of the contact forces + (CE - CE of the first step) + FW + DW - SW + what leap-frog makes where the step changes
   /// under a contact force: energy made (> 0) or lost by the numerics
   double made = 0.0;

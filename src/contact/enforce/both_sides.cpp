@@ -274,17 +274,22 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   if (!started_) initial_elastic_ = sums.elastic;
   friction_work_ += sums.friction_work;
   // A damper whose force turns its pair round gives back a part of what it takes next: DW does not fall.
-  const double damped = damping_owed_ + sums.damping_work;
-  damping_work_ += std::max(0.0, damped);
+  const double damped = damping_owed_ + sums.damping_work, damped_now = std::max(0.0, damped);
+  damping_work_ += damped_now;
   damping_owed_ = std::min(0.0, damped);
   stepped_work_ += sums.stepped;
-  contact_work_ += discrete_work(host);
+  const double work = discrete_work(host);
+  contact_work_ += work;
+  // As one-sided interfaces have it: whoever opens the time window over nodes in the gap puts the energy there that the springs then hold.
+  if (waiting_ && acts(host)) start_work_ += work + sums.elastic + sums.friction_work + damped_now + sums.stepped;
+  waiting_ = host.time < options_.birth;
   started_ = true;
   for (std::size_t i = 0; i < own_.size(); ++i) force[at(own_[i])] += normal_[i] + tangential_[i];
   result.elastic = sums.elastic;
   result.friction_work = friction_work_;
   result.damping_work = damping_work_;
-  result.made = contact_work_ + (sums.elastic - initial_elastic_) + friction_work_ + damping_work_ + stepped_work_;
+  result.made = contact_work_ + (sums.elastic - initial_elastic_) + friction_work_ + damping_work_ + stepped_work_ - start_work_;
+  result.start_work = start_work_;
   result.in_contact = static_cast<Index>(in_contact_.size());
   return result;
 }
@@ -357,6 +362,8 @@ void BothSides::save(HistoryWriter& out) const {
   out.put(damping_owed_);
   out.put(longest_step_);
   out.put(contact_work_);
+  out.put(start_work_);
+  out.put(waiting_);
   out.put(stepped_work_);
 }
 
@@ -376,6 +383,8 @@ void BothSides::load(HistoryReader& in) {
   in.get(damping_owed_);
   in.get(longest_step_);
   in.get(contact_work_);
+  in.get(start_work_);
+  in.get(waiting_);
   in.get(stepped_work_);
 }
 

@@ -129,6 +129,8 @@ class BothSides final : public InterfaceModel {
   double initial_elastic_ = 0.0;
   double damping_owed_ = 0.0;  // <= 0: what DW is too large by
   double friction_work_ = 0.0, damping_work_ = 0.0, contact_work_ = 0.0, stepped_work_ = 0.0;
+  double start_work_ = 0.0;  // put in by whoever opened the time window over nodes in the gap
+  bool waiting_ = false;     // the last step was before the window
 };
 
 }  // namespace abut::contact
