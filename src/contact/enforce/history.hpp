@@ -12,7 +12,7 @@ namespace abut::contact {
 inline constexpr std::uint64_t history_magic = 0x3143544354554241ULL;  // "ABUTCTC1"
 /// Rises with every change of what is written. 1: before free borders had strips. 2: free borders. 3: owner in the head, normal force
 /// and start work, strips that widen. 4: other order of a node's values, accounts of pairs. 5: a byte for a node that remembers nothing. 6:
-/// mean velocities of the sides. 7: checksum by words.
+/// mean velocities of the sides. 7: checksum by words. 8: springs of the last step, start work of two-sided interfaces.
 inline constexpr std::uint64_t history_version = 8;
 
 class HistoryWriter : public ByteWriter {
