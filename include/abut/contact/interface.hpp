@@ -51,9 +51,11 @@ struct HostState {
   /// accuracy in CX only; TYPE7 does not damp, and refuses viscous friction.
   std::span<const double> mass;
   double time = 0.0;  ///< t^n
-  double dt = 0.0;    ///< h_-, the step that ended at t^n (0 in the first cycle)
-  /// (h_- + the one before)/2. First and last forces and accounts of pairs need it, as do reference impulses and incremental friction; a
-  /// host that leaves it 0 says that its step is constant.
+  /// h_-, the step that ended at t^n (0 in the first cycle). Left 0 it is the one committed last; the first step after restore() must
+  /// say it (std::logic_error). Friction, first and last forces and the swept test are made with it.
+  double dt = 0.0;
+  /// (h_- + the one before)/2. First and last forces and accounts of pairs need it, as do reference impulses and incremental friction. Left
+  /// 0 with dt: of the steps that were committed; left 0 beside a dt that is given: the step is constant.
   double dt_bar_old = 0.0;
   /// #N or empty: entry of `mobility` for nodes that are held or belong to a rigid body, no_index for those that move freely with
   /// their `mass`. Effective masses of pairs are made with it; the dampers of TYPE7 take `mass`.
@@ -123,7 +125,7 @@ class Interface {
   /// @pre positions and velocities are finite, masses are >= 0
   /// @throws std::invalid_argument when x, v or a mass that is not empty is too short for the interface's nodes, `constrained` names an
   ///         entry that does not exist, the time is not finite, or a step is negative or not finite; std::logic_error for a both_sides
-  ///         interface whose last evaluate was not committed
+  ///         interface whose last evaluate was not committed, and without dt after restore()
   void search(const HostState& host);
   /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added
@@ -136,8 +138,8 @@ class Interface {
   /// @throws std::invalid_argument when one is too short
   void clear(std::span<Vec3> force, std::span<double> stiffness) const;
   /// @param dt  h_+, the step that the host takes now
-  /// @pre dt is finite and >= 0; the host gives it to the next search() as HostState::dt
-  /// @throws std::logic_error without an evaluate in this step
+  /// The next step takes it where HostState::dt is left 0.
+  /// @throws std::logic_error without an evaluate in this step, std::invalid_argument when dt is negative or not finite
   void commit(double dt);
 
   /// Normal and tangential contact force of the last evaluate() on host nodes are added (output).
@@ -164,7 +166,7 @@ class Interface {
   /// Explicit history (friction anchors, held pairs, energies, previous forces): a host can checkpoint it between commit and search.
   /// With what set_surface() was given it is all that an interface made anew needs to go on with the same bits.
   [[nodiscard]] std::vector<std::byte> history() const;
-  /// @post the next verb is search()
+  /// @post the next verb is search(), with HostState::dt
   /// @throws std::invalid_argument, naming which, on a blob that is damaged, of another version of the library or of another interface
   void restore(std::span<const std::byte> history);
 

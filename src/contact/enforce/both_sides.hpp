@@ -22,7 +22,8 @@ class BothSides final : public InterfaceModel {
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
   void clear(std::span<Vec3> force, std::span<double> stiffness) const override;
-  void commit(double) override { evaluated_ = false; }
+  void commit() override { evaluated_ = false; }
+  [[nodiscard]] bool begun() const override { return started_; }
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
   void add_nodal_contact(std::span<NodalContact> nodes) const override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,6 +37,9 @@ struct Interface::Made {
   std::size_t needed = 0;  ///< nodes that the host must have at least
   std::unique_ptr<Recorder> recorder = nullptr;
   enum class Stage { idle, searched, evaluated } stage = Stage::idle;
+  /// Committed last; NaN after restore(), since the history does not say it.
+  double last_step = 0.0;
+  double ended = 0.0, step_before = 0.0;  ///< the step that ended when evaluate() was called last, and when it was committed
 
   /// The recipe as it was before the model was made.
   [[nodiscard]] Recipe whole_recipe() const {
@@ -77,22 +81,24 @@ struct Interface::Made {
     throw std::invalid_argument("contact: constrained names entry " + std::to_string(lowest < no_index ? lowest : highest) + " of " +
                                 std::to_string(host.mobility.size()));
   }
+  /// Steps that the host leaves 0 are those committed; where it says the last one alone, its step is constant.
+  [[nodiscard]] HostState with_steps(HostState host) const {
+    if (host.dt == 0.0 && std::isnan(last_step) && model->begun()) {
+      throw std::logic_error("contact: after restore() the first step must say dt, the step that ended at its time: no history knows it");
+    }
+    if (host.dt == 0.0 && last_step > 0.0) {
+      host.dt = last_step;
+      if (host.dt_bar_old == 0.0) host.dt_bar_old = 0.5 * (last_step + step_before);
+    }
+    if (host.dt_bar_old == 0.0) host.dt_bar_old = host.dt;
+    return host;
+  }
   [[nodiscard]] std::vector<std::byte> history() const {
     HistoryWriter out(fingerprint);
     model->save(out);
     return out.finish();
   }
 };
-
-namespace {
-
-/// A host that leaves the mean of its last two steps 0 says that its step is constant.
-HostState with_steps(HostState host) {
-  if (host.dt_bar_old == 0.0) host.dt_bar_old = host.dt;
-  return host;
-}
-
-}  // namespace
 
 Interface::Interface(Made made) : made_(std::make_unique<Made>(std::move(made))) {
   Recipe& recipe = made_->recipe;
@@ -190,29 +196,37 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
   return contact::inspect(input, limits);
 }
 
-void Interface::search(const HostState& host) {
-  made_->check(host);
+void Interface::search(const HostState& given) {
+  made_->check(given);
+  const HostState host = made_->with_steps(given);
   if (made_->recorder) made_->recorder->search(host);
-  made_->model->search(with_steps(host));
+  made_->model->search(host);
   made_->stage = Made::Stage::searched;
 }
 
-StepResult Interface::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
+StepResult Interface::evaluate(const HostState& given, std::span<Vec3> force, std::span<double> stiffness) {
   if (made_->stage != Made::Stage::searched) throw std::logic_error("contact: evaluate() needs a search() before it in the same step");
-  made_->check(host);
+  made_->check(given);
   made_->check(force.size(), "force");
   made_->check(stiffness.size(), "stiffness");
+  const HostState host = made_->with_steps(given);
   if (made_->recorder) made_->recorder->evaluate(host, force, stiffness);
-  const StepResult result = made_->model->evaluate(with_steps(host), force, stiffness);
+  const StepResult result = made_->model->evaluate(host, force, stiffness);
   if (made_->recorder) made_->recorder->result(result, force, stiffness);
+  made_->ended = host.dt;
   made_->stage = Made::Stage::evaluated;
   return result;
 }
 
 void Interface::commit(double dt) {
   if (made_->stage != Made::Stage::evaluated) throw std::logic_error("contact: commit() needs an evaluate() before it in the same step");
+  if (!(dt >= 0.0) || !std::isfinite(dt)) {
+    throw std::invalid_argument("contact: the step that is committed must be a finite number >= 0, not " + std::to_string(dt));
+  }
   if (made_->recorder) made_->recorder->commit(dt);
-  made_->model->commit(dt);
+  made_->model->commit();
+  made_->step_before = made_->ended;
+  made_->last_step = dt;
   made_->stage = Made::Stage::idle;
 }
 
@@ -250,6 +264,7 @@ void Interface::restore(std::span<const std::byte> history) {
   made_->model->load(in);
   in.finish();
   made_->stage = Made::Stage::idle;
+  made_->last_step = std::numeric_limits<double>::quiet_NaN();
   if (made_->recorder) made_->recorder->history(history);
 }
 

@@ -22,7 +22,9 @@ class InterfaceModel {
   virtual void search(const HostState& host) = 0;
   virtual StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) = 0;
   virtual void clear(std::span<Vec3> force, std::span<double> stiffness) const = 0;
-  virtual void commit(double dt) = 0;
+  virtual void commit() = 0;
+  /// A step was committed.
+  [[nodiscard]] virtual bool begun() const = 0;
   virtual void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const = 0;
   virtual void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const = 0;
   virtual void add_nodal_contact(std::span<NodalContact> nodes) const = 0;

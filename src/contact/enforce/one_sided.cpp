@@ -305,7 +305,7 @@ void OneSided::clear(std::span<Vec3> force, std::span<double> stiffness) const {
   }
 }
 
-void OneSided::commit(double) {
+void OneSided::commit() {
   for (Pass& pass : pass_) pass.commit();
   for (std::size_t k = 0; k < 2; ++k) {
     SideLoads& loads = loads_[k];

@@ -20,7 +20,8 @@ class OneSided final : public InterfaceModel {
   void search(const HostState& host) override;
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
   void clear(std::span<Vec3> force, std::span<double> stiffness) const override;
-  void commit(double dt) override;
+  void commit() override;
+  [[nodiscard]] bool begun() const override { return evaluated_; }
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
   void add_nodal_contact(std::span<NodalContact> nodes) const override;
