@@ -65,8 +65,6 @@ OneSided::OneSided(Surface first, Surface second, const Options& options) : opti
                                 (count > 20 ? ", ..." : ""));
   }
   side_ = {Side(std::move(first), canonical(options)), Side(std::move(second), canonical(options))};
-  pass_.emplace_back(options, false, at(side_[0].node_count()));
-  pass_.emplace_back(options, false, at(side_[1].node_count()));
   prepare();
 }
 
@@ -83,9 +81,7 @@ OneSided::OneSided(std::vector<Index> nodes, std::vector<double> node_stiffness,
     options_.rules.one_pass_half_stiffness = true;
     node_stiffness.assign(nodes.size(), 0.0);
   }
-  const std::size_t held = nodes.size();
   side_ = {Side(std::move(nodes), std::move(node_stiffness)), Side(std::move(surface), canonical(options))};
-  pass_.emplace_back(options_, true, held);
   prepare();
 }
 
@@ -94,6 +90,15 @@ void OneSided::prepare() {
     loads_[k].resize(at(side_[k].node_count()));
     side_[k].set({}, options_.rules.triangle_third_node_twice);
     host_nodes_ = std::max(host_nodes_, largest_node(side_[k]));
+  }
+  make_passes();
+}
+
+void OneSided::make_passes() {
+  pass_.clear();
+  for (std::size_t k = 0; k < (two_passes_ ? 2U : 1U); ++k) {
+    pass_.emplace_back(options_, !two_passes_, at(side_[k].node_count()));
+    pass_[k].set_executor(executor_);
   }
 }
 
@@ -174,10 +179,11 @@ void OneSided::search(const HostState& host) {
   if (host_nodes_ > host.x.size()) throw std::invalid_argument("contact: the host has fewer nodes than the interface");
   const std::array<Motion, 2> motion = gather(host);
   if (!started_) {
+    if (tried_) make_passes();  // the first step again, perhaps from elsewhere
     pass_[0].start(side_[0], side_[1]);
     if (two_passes_) pass_[1].start(side_[1], side_[0]);
   }
-  started_ = true;
+  tried_ = true;
   if (host.time < options_.birth || host.time > options_.death) return;
   // A search that no commit followed: lists and x_before then are of different positions.
   if (!stepped_) {
@@ -263,12 +269,11 @@ StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std:
   result.elastic = (total[0].potential + total[0].stick) + (total[1].potential + total[1].stick);
   result.friction_work = friction_work_ + friction_step_;
   const double work = (loads_[0].work + loads_[0].work_step) + (loads_[1].work + loads_[1].work_step);
-  if (!evaluated_) initial_elastic_ = result.elastic;
+  if (!started_) initial_elastic_ = result.elastic;
   // Whoever opens the time window over nodes in the gap puts the energy there that the springs then hold.
   waiting_step_ = host.time < options_.birth;
   if (waiting_ && awake) start_step_ += (loads_[0].work_step + loads_[1].work_step) + result.elastic + friction_step_ + damping_step_;
   result.start_work = start_work_ + start_step_;
-  evaluated_ = true;
   result.made = work + (result.elastic - initial_elastic_) + result.friction_work + result.damping_work - result.start_work +
                 (stepped_work_ + stepped_step_);
   result.normal_force = total[1].normal - total[0].normal;
@@ -313,6 +318,7 @@ void OneSided::commit() {
     loads.work_step = 0.0;
     over_pieces(k, [&loads](std::size_t begin, std::size_t end) { loads.commit(begin, end); });
   }
+  started_ = true;
   stepped_ = true;
   committed_ = true;
   waiting_ = waiting_step_;
@@ -349,7 +355,7 @@ void OneSided::add_nodal_area(std::span<const Vec3> x, std::span<double> area) c
 }
 
 void OneSided::add_nodal_contact(std::span<NodalContact> nodes) const {
-  if (!started_) return;
+  if (!started_ && !tried_) return;
   pass_[0].add_nodal_contact(side_[0], side_[1], nodes);
   if (two_passes_) pass_[1].add_nodal_contact(side_[1], side_[0], nodes);
 }
@@ -361,7 +367,7 @@ void OneSided::save(HistoryWriter& out) const {
   for (const Pass& pass : pass_) bytes += pass.saved_bytes();
   out.reserve(bytes);
   out.put(static_cast<std::uint64_t>(started_ ? 1 : 0));
-  out.put(static_cast<std::uint64_t>(!evaluated_ ? 0 : !waiting_ ? 1 : 2));
+  out.put(static_cast<std::uint64_t>(!started_ ? 0 : !waiting_ ? 1 : 2));
   out.put(initial_elastic_);
   out.put(friction_work_);
   out.put(damping_work_);
@@ -387,7 +393,6 @@ void OneSided::load(HistoryReader& in) {
   in.get(started);
   started_ = started != 0;
   in.get(started);
-  evaluated_ = started != 0;
   waiting_ = started == 2;
   in.get(initial_elastic_);
   in.get(friction_work_);
@@ -405,6 +410,7 @@ void OneSided::load(HistoryReader& in) {
     in.get_all(loads_[k].x_before);
   }
   for (Pass& pass : pass_) pass.load(in);
+  tried_ = true;
   stepped_ = false;
   committed_ = false;
 }

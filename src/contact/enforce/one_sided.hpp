@@ -21,7 +21,7 @@ class OneSided final : public InterfaceModel {
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) override;
   void clear(std::span<Vec3> force, std::span<double> stiffness) const override;
   void commit() override;
-  [[nodiscard]] bool begun() const override { return evaluated_; }
+  [[nodiscard]] bool begun() const override { return started_; }
   void add_nodal_forces(std::span<Vec3> normal, std::span<Vec3> tangential) const override;
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const override;
   void add_nodal_contact(std::span<NodalContact> nodes) const override;
@@ -44,13 +44,15 @@ class OneSided final : public InterfaceModel {
   double friction_work_ = 0.0, friction_step_ = 0.0, damping_work_ = 0.0, damping_step_ = 0.0, start_work_ = 0.0, start_step_ = 0.0;
   double stepped_work_ = 0.0, stepped_step_ = 0.0;  ///< made by steps that changed under contact forces
   double initial_elastic_ = 0.0;                    ///< stored before anything moved: initial penetrations
-  bool started_ = false, evaluated_ = false;
-  bool waiting_ = false, waiting_step_ = false;  ///< the last step, this one was before the birth
-  bool stepped_ = false;                         ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
-  bool committed_ = false;                       ///< since the last search: the sides' positions are now those before the step
-  std::array<Vec3, 2> mean_velocity_{};          ///< of each side's nodes in the last step
+  bool started_ = false;                            ///< a step was committed
+  bool tried_ = false;                              ///< searched or restored: until a step is committed passes begin anew
+  bool waiting_ = false, waiting_step_ = false;     ///< the last step, this one was before the birth
+  bool stepped_ = false;                 ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
+  bool committed_ = false;               ///< since the last search: the sides' positions are now those before the step
+  std::array<Vec3, 2> mean_velocity_{};  ///< of each side's nodes in the last step
 
   void prepare();
+  void make_passes();
   /// The host's positions, and for each pass how far they are from those of the last step. Any common motion gives a true bound; the last
   /// mean velocity gives a close one, so that one look at the nodes is enough.
   std::array<Motion, 2> gather(const HostState& host);

@@ -129,6 +129,43 @@ TEST(HostPromises, TheStepThatEndedIsTheOneCommitted) {
   same(b);
 }
 
+// Until commit() a step may be searched and evaluated again from elsewhere, the first one too: nothing of the trial stays.
+TEST(HostPromises, ATrialOfTheFirstStepLeavesNothing) {
+  const auto same = [](const Options& options) {
+    Slider tried(options), plain(options);
+    for (Slider* s : {&tried, &plain}) s->host.v[4].z = -0.5;
+    Host elsewhere = tried.host;
+    for (const Vec3& at : {Vec3{7, 8, 0.02}, Vec3{4, 4, 0.5}}) {
+      elsewhere.x[4] = at;
+      elsewhere.f.assign(5, {});
+      elsewhere.k.assign(5, 0.0);
+      tried.interface.search(elsewhere.state());
+      (void)tried.interface.evaluate(elsewhere.state(), elsewhere.f, elsewhere.k);
+    }
+    for (int i = 0; i < 60; ++i) {
+      const StepResult a = tried.host.step(tried.interface, 0.003), b = plain.host.step(plain.interface, 0.003);
+      ASSERT_EQ(a.made, b.made) << i;
+      ASSERT_EQ(a.elastic, b.elastic) << i;
+      ASSERT_EQ(a.friction_work, b.friction_work) << i;
+      ASSERT_EQ(tried.host.x, plain.host.x) << i;
+      ASSERT_EQ(tried.interface.history(), plain.interface.history()) << i;
+    }
+    EXPECT_GT(std::abs(plain.host.v[4].x - 1.0), 1e-3);  // it rubbed
+  };
+  Options o;
+  o.gap = 0.1;
+  o.friction = 0.3;
+  same(o);
+  o.start_duration = 0.05;
+  same(o);
+  o.start_duration = 0.0;
+  o.initial = Initial::offset;
+  same(o);
+  o.rules = Rules::reference();
+  o.initial = Initial::keep;
+  same(o);
+}
+
 // Dampers and viscous friction of TYPE7 on a node that cannot move (mass 0) are those of the pair; without any masses they are refused.
 TEST(HostPromises, NodesWithoutMassRub) {
   BothSidesOptions o;
