@@ -87,6 +87,7 @@ def test_a_read_only_force_is_refused():
     (lambda: interface()[1].set_threads(4097), "threads must be 1 to 4096"),
     (lambda: interface()[1].search(squares()[0], np.zeros((8, 3)), dt=-1.0), "must be a finite number >= 0, not -1"),
     (lambda: interface()[1].commit(1e-3), "commit"),
+    (lambda: contact.Interface.two_surfaces(*squares()[1:]).search(squares()[0], np.zeros((8, 3))), "side 0 has no stiffness"),
     (lambda: interface()[1].set_surface(2), "side is 2"),
     (lambda: interface()[1].set_surface(0, stiffness=[1.0, 2.0]), r"stiffness has shape \(2,\), expected \(1,\)"),
     (lambda: interface()[1].restore(b"not a history, but long enough"), ""),

@@ -262,7 +262,8 @@ void bind_interface(py::module_& m) {
            "Finds who can touch. Once per step, with the arguments that evaluate() will get.\n\n"
            "x: (N, 3) positions at t^n; v: (N, 3) velocities half a step before. time: t^n; dt: the step that\n"
            "ended at t^n, None: the last one committed. Raises ValueError when arrays are too short for the surfaces or not finite, for a\n"
-           "negative mass, a time that is not finite, and a dt that is negative or not finite.")
+           "negative mass, a time that is not finite, and a dt that is negative or not finite; RuntimeError where set_surface() never gave\n"
+           "the stiffness of a side.")
       .def("evaluate", &evaluate, "x"_a, "v"_a, "force"_a, "stiffness"_a, py::kw_only(), "mass"_a = py::none(), "time"_a = 0.0,
            "dt"_a = py::none(),
            "Adds forces into force (N, 3) and nodal contact stiffness into stiffness (N,): float64, C order, writable.\n\n"

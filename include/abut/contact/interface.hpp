@@ -93,7 +93,8 @@ class Interface {
   ///        are then #nodes (an inactive node is let go), and so is thickness (automatic_gap; of both_sides with node_gap and
   ///        facet_gap: they become half of it).
   /// Of nodes_to_surface that was made without stiffness of nodes the facets' stiffness counts alone.
-  /// Spans that are empty leave what was set before. May be called at any time.
+  /// Spans that are empty leave what was set before. May be called at any time; stiffness must have been given (0 is one) to all surfaces
+  /// before the first search, of both_sides to what BothSidesOptions::stiffness takes.
   /// @throws std::invalid_argument on a side that is neither 0 nor 1, a wrong length, a negative or non-finite stiffness or thickness
   void set_surface(int side, const SurfaceState& state);
 
@@ -125,7 +126,7 @@ class Interface {
   /// @pre positions and velocities are finite, masses are >= 0
   /// @throws std::invalid_argument when x, v or a mass that is not empty is too short for the interface's nodes, `constrained` names an
   ///         entry that does not exist, the time is not finite, or a step is negative or not finite; std::logic_error for a both_sides
-  ///         interface whose last evaluate was not committed, and without dt after restore()
+  ///         interface whose last evaluate was not committed, without dt after restore(), and where nobody gave the stiffness of a side
   void search(const HostState& host);
   /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added

@@ -81,6 +81,22 @@ struct Interface::Made {
     throw std::invalid_argument("contact: constrained names entry " + std::to_string(lowest < no_index ? lowest : highest) + " of " +
                                 std::to_string(host.mobility.size()));
   }
+  /// Pairs have a stiffness, if only 0: what nobody gave would be no contact without a word.
+  void check_stiffness() const {
+    const auto given = [this](std::size_t k) { return surfaces[k].stiffness || model->side(k).nodes().empty(); };
+    bool nodes = recipe.kind == Recipe::Kind::nodes_to_surface || given(0), facets = given(1);
+    if (recipe.kind == Recipe::Kind::both_sides) {
+      using Stiffness = BothSidesOptions::Stiffness;
+      const Stiffness rule = recipe.both.stiffness;
+      if (rule == Stiffness::facet) nodes = true;
+      if (rule != Stiffness::facet && recipe.both.stiffness_min > 0.0) return;
+      if ((rule == Stiffness::mean || rule == Stiffness::larger) && (nodes || facets)) return;
+    }
+    if (nodes && facets) return;
+    const std::string side = nodes ? "1" : "0";
+    throw std::logic_error("contact: side " + side + " has no stiffness: set_surface(" + side +
+                           ", ...) gives it, before the first search()");
+  }
   /// Steps that the host leaves 0 are those committed; where it says the last one alone, its step is constant.
   [[nodiscard]] HostState with_steps(HostState host) const {
     if (host.dt == 0.0 && std::isnan(last_step) && model->begun()) {
@@ -198,6 +214,7 @@ std::vector<Finding> Interface::inspect(const HostState& host, double element_st
 
 void Interface::search(const HostState& given) {
   made_->check(given);
+  made_->check_stiffness();
   const HostState host = made_->with_steps(given);
   if (made_->recorder) made_->recorder->search(host);
   made_->model->search(host);

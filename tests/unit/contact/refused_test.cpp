@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "unit/contact/bench_host.hpp"
 
@@ -44,6 +45,7 @@ TEST(Refused, times_and_steps) {
   Host host;
   Interface i =
       Interface::two_surfaces(Surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat)), Surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat)), {});
+  for (const int side : {0, 1}) test::set_stiffness(i, side, 1, 1.0);
   const auto refused = [&](double HostState::*number, double value) {
     HostState bad = host.state();
     bad.*number = value;
@@ -57,6 +59,53 @@ TEST(Refused, times_and_steps) {
   for (const double bad : {nan, infinite, -1.0}) {
     refused(&HostState::dt, bad);
     refused(&HostState::dt_bar_old, bad);
+  }
+}
+
+/// What the first search says of an interface whose sides have been given stiffness or not; nothing: it is made.
+std::string said(Interface i, const Host& host, bool first, bool second) {
+  if (first) test::set_stiffness(i, 0, 1, 1.0);
+  if (second) test::set_stiffness(i, 1, 1, 1.0);
+  try {
+    i.search(host.state());
+  } catch (const std::logic_error& error) { return error.what(); }
+  return {};
+}
+
+// Stiffness that nobody gave would be a contact without force.
+TEST(Refused, contacts_whose_stiffness_was_never_given) {
+  Host host;
+  const Surface lower(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat)), upper(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat));
+  const auto lacks = [](const std::string& what, const char* call) { return what.find(call) != std::string::npos; };
+  const auto two = [&](bool first, bool second) { return said(Interface::two_surfaces(lower, upper, {}), host, first, second); };
+  EXPECT_TRUE(lacks(two(false, true), "set_surface(0, ...)")) << two(false, true);
+  EXPECT_TRUE(lacks(two(true, false), "set_surface(1, ...)"));
+  EXPECT_EQ(two(true, true), "");
+  for (const bool own : {false, true}) {
+    const auto one = [&](bool second) {
+      return said(Interface::nodes_to_surface({4}, std::vector<double>(own ? 1 : 0, 1.0), lower, {}), host, false, second);
+    };
+    EXPECT_TRUE(lacks(one(false), "set_surface(1, ...)"));
+    EXPECT_EQ(one(true), "");
+  }
+  using Rule = BothSidesOptions::Stiffness;
+  const auto both = [&](Rule rule, double least, bool first, bool second) {
+    BothSidesOptions o;
+    o.gap = 0.1;
+    o.stiffness = rule;
+    o.stiffness_min = least;
+    return said(Interface::both_sides({4}, lower, o), host, first, second);
+  };
+  EXPECT_TRUE(lacks(both(Rule::facet, 1.0, true, false), "set_surface(1, ...)"));
+  EXPECT_EQ(both(Rule::facet, 0.0, false, true), "");
+  for (const Rule rule : {Rule::smaller, Rule::series}) {
+    EXPECT_TRUE(lacks(both(rule, 0.0, false, true), "set_surface(0, ...)"));
+    EXPECT_EQ(both(rule, 0.0, true, true), "");
+    EXPECT_EQ(both(rule, 1.0, false, true), "");  // stiffness_min is one
+  }
+  for (const Rule rule : {Rule::mean, Rule::larger}) {
+    EXPECT_TRUE(lacks(both(rule, 0.0, false, false), "set_surface(0, ...)"));
+    EXPECT_EQ(both(rule, 0.0, true, false), "");
   }
 }
 
