@@ -33,6 +33,32 @@ def test_changed_velocities_are_booked_as_external_work():
     assert np.abs(run.velocities).max() < 0.1
 
 
+def test_an_edit_is_of_its_cycle():
+    b = builder()
+    one_cube(b)
+    b.engine(1.0)
+    run = abut.Run(b.build())
+    run.advance(5)
+    with pytest.raises(RuntimeError, match=r"from cycle 5 to 7 inside the block of edit\(\)"):
+        with run.edit() as e:
+            e.velocities[:, 0] += 2.0
+            run.advance(2)
+    run.advance(1)
+    assert not run.velocities.any() and run.balance.extw == 0.0
+
+
+def test_velocities_that_wait_for_the_next_cycle_are_read_only():
+    b = builder()
+    one_cube(b)
+    b.engine(1.0)
+    run = abut.Run(b.build())
+    run.velocities = np.ones((8, 3))
+    with pytest.raises(ValueError, match="read-only"):
+        run.velocities[:] = 0.0
+    run.advance(1)
+    np.testing.assert_allclose(run.velocities, 1.0)
+
+
 @pytest.mark.parametrize("factor", [0.0, -1.0, 2.0])
 def test_changed_velocities_under_stress_keep_the_balance(factor):
     """Elements count their force over the whole step up to the change: of first order in the step, a fifth of the energy here."""

@@ -5,7 +5,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -24,7 +26,10 @@ Run& run_of(const py::object& self) { return self.cast<HeldRun&>().idle(); }
 
 /// A view; of velocities that wait for the next cycle a copy, whose memory is only lent.
 py::array velocity_array(const py::object& self, std::span<const Vec3> now, const Vec3* own) {
-  return now.data() == own ? view(now, self) : copy(now);
+  if (now.data() == own) return view(now, self);
+  py::array lent = copy(now);
+  lent.attr("flags").attr("writeable") = false;
+  return lent;
 }
 
 py::array velocities(const py::object& self) {
@@ -54,13 +59,19 @@ void set_angular_velocities(const HeldRun& self, const ArrayLike& value) {
 struct Edit {
   py::object run;
   py::object velocities = py::none(), angular_velocities = py::none();
+  std::int64_t cycle = 0;  ///< that they are of
 
   void enter() {
+    cycle = run_of(run).cycle();
     velocities = copy(run_of(run).velocities());
     angular_velocities = copy(run_of(run).angular_velocities());
   }
   void leave() const {
     const auto& held = run.cast<const HeldRun&>();
+    if (held.idle().cycle() != cycle) {
+      throw std::runtime_error("the run has gone from cycle " + std::to_string(cycle) + " to " + std::to_string(held.idle().cycle()) +
+                               " inside the block of edit(): its velocities are of the past, and nothing is changed");
+    }
     set_velocities(held, {velocities});
     set_angular_velocities(held, {angular_velocities});
   }
@@ -99,7 +110,8 @@ std::vector<NamedResult> interface_results(const HeldRun& self) {
 
 void bind_edit(py::module_& m) {
   py::class_<Edit>(m, "Edit",
-                   "Velocities to be changed inside a `with` block: copies that the run takes over at its end, not after an exception.")
+                   "Velocities to be changed inside a `with` block: copies that the run takes over at its end, not after an exception.\n\n"
+                   "Raises RuntimeError at the end when the run has gone on inside: the velocities would be of the past.")
       .def_readwrite("velocities", &Edit::velocities, "(N, 3) length/time, half a step before Run.time; None before the block begins")
       .def_readwrite("angular_velocities", &Edit::angular_velocities, "(N, 3) radians/time, (0, 3) in models without rotations")
       .def("__enter__",
