@@ -1,5 +1,6 @@
 """Models: read, looked at, refused."""
 import gc
+import pickle
 
 import numpy as np
 import pytest
@@ -59,6 +60,17 @@ def test_inspection_with_the_first_step(plates):
     # Plates of 0.24^2 x 0.004 aluminium and 0.12^2 x 0.002 steel
     np.testing.assert_allclose(inspection.part_masses, [0.24**2 * 0.004 * 2700, 0.12**2 * 0.002 * 7800], rtol=1e-12)
     assert inspection.first_step > 0 and inspection.controller.kind in ("shell4", "node", "interface")
+
+
+def test_what_a_worker_process_raises_comes_back_whole():
+    with pytest.raises(abut.InputError) as caught:
+        abut.Model.from_text("/BEGIN\n", ["x"])
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert type(error) is abut.InputError and str(error) == str(caught.value) and error.diagnostics
+    for back, sent in zip(error.diagnostics, caught.value.diagnostics, strict=True):
+        for name in ("severity", "code", "message", "file", "line", "keyword", "field", "columns"):
+            assert getattr(back, name) == getattr(sent, name)
+        assert str(back) == str(sent)
 
 
 def test_every_fault_of_a_deck_at_once():

@@ -51,6 +51,19 @@ void bind_diagnostics(py::module_& m) {
       .def_property_readonly(
           "field", [](const Diagnostic& d) { return d.place.field; }, "e.g. 'Gap'")
       .def_property_readonly("columns", &columns, "first and last column of the field, 1-based; None when it has none")
+      .def(py::pickle(
+          [](const Diagnostic& d) {
+            const Place& p = d.place;
+            return py::make_tuple(name_of(d.severity, severities), d.code, d.message, p.file, p.line, p.keyword, p.field, p.first_column,
+                                  p.last_column);
+          },
+          [](const py::tuple& t) {
+            if (t.size() != 9) throw py::value_error("this is not the state of a Diagnostic");
+            const Place place{t[3].cast<std::string>(), t[4].cast<int>(), t[5].cast<std::string>(),
+                              t[6].cast<std::string>(), t[7].cast<int>(), t[8].cast<int>()};
+            return Diagnostic{named(t[0].cast<std::string>(), "severity", severities), t[1].cast<std::string>(), place,
+                              t[2].cast<std::string>()};
+          }))
       .def("__str__", [](const Diagnostic& d) { return to_string(d); })
       .def("__repr__",
            [](const Diagnostic& d) { return "<" + name_of(d.severity, severities) + " " + d.code + ": " + to_string(d) + ">"; });
