@@ -211,6 +211,10 @@ def test_plastic_shells_and_triangles_and_tetrahedra():
     (lambda b: b.history(nodes=[1], variables="DEF"), TypeError, r"variables is 'DEF', expected a list of names, e.g. \['DEF'\]"),
     (lambda b: b.history(nodes=[1], variables=["ELEVENCHARS"]), ValueError, "variables holds 'ELEVENCHARS', expected names of 1 to 10"),
     (lambda b: b.history(nodes=[1], variables=[]), ValueError, "variables is empty"),
+    (lambda b: b.function([0, 1], np.array([0, 1j])), TypeError, "y holds complex128, expected real numbers"),
+    (lambda b: b.nodes(np.zeros((2, 3), dtype=complex)), TypeError, "holds complex128, expected real numbers"),
+    (lambda b: abut.ModelBuilder("drop", units="kgm"), ValueError, "units is 'kgm', expected three names"),
+    (lambda b: abut.ModelBuilder("drop", units=("kg", "m")), ValueError, "expected three names"),
     (lambda b: abut.ModelBuilder("two words"), ValueError, "must not be empty nor hold blanks"),
 ])
 def test_arguments_that_make_no_card(call, error, words):

@@ -98,6 +98,17 @@ def test_values_that_are_refused(call, words):
         call()
 
 
+@pytest.mark.parametrize("use", [
+    lambda: contact.Interface.__new__(contact.Interface).search(squares()[0], np.zeros((8, 3))),
+    lambda: contact.Surface.__new__(contact.Surface).nodes,
+    lambda: contact.Options.__new__(contact.Options).gap,
+    lambda: contact.Interface.two_surfaces(*squares()[1:], contact.Options.__new__(contact.Options)),
+])
+def test_an_object_that_new_alone_made_is_refused(use):
+    with pytest.raises(TypeError, match="made by __new__ alone"):
+        use()
+
+
 @pytest.mark.parametrize("steps", [(np.nan, 0.0), (0.0, -1.0), (np.inf, 1.0)])
 def test_a_history_whose_steps_are_no_times_is_refused(steps):
     saved = interface()[1].history()

@@ -63,8 +63,8 @@ class ModelBuilder:
         """name: no blank or slash; units: names of mass, length and time as in /BEGIN, e.g. ("kg", "mm", "ms")."""
         if not name or any(character in name for character in " /\t\n"):
             raise ValueError(f"name {name!r} must not be empty nor hold blanks or slashes")
-        if len(units) != 3:
-            raise ValueError(f"units has {len(units)} names, expected those of mass, length and time")
+        if isinstance(units, str) or len(units) != 3:
+            raise ValueError(f"units is {units!r}, expected three names: those of mass, length and time")
         self.name = name
         line = "".join(f"{cards.checked_text(unit, 'a unit'):>20}" for unit in units)
         self._lines = ["#RADIOSS STARTER", "/BEGIN", cards.checked_text(name, "name"), integers(2022, 0), line, line]
@@ -165,7 +165,7 @@ class ModelBuilder:
 
     def function(self, x: ArrayLike, y: ArrayLike, *, id: int | None = None, title: str = "function") -> int:
         """Piecewise linear function through points x (K,), ascending, and y (K,). Returns its id."""
-        xs, ys = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        xs, ys = cards.real_array(x, "x"), cards.real_array(y, "y")
         if xs.ndim != 1 or xs.shape != ys.shape:
             raise ValueError(f"x and y have shapes {xs.shape} and {ys.shape}, expected (K,) both")
         bad = np.flatnonzero(~(np.isfinite(xs) & np.isfinite(ys)))

@@ -97,9 +97,17 @@ def positive(value: float, name: str) -> float:
     return number
 
 
+def real_array(value: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Of any shape; complex numbers are not cut to their real part."""
+    array = np.asarray(value)
+    if array.dtype.kind == "c":
+        raise TypeError(f"{name} holds {array.dtype}, expected real numbers")
+    return array.astype(np.float64)
+
+
 def vectors(value: ArrayLike, name: str) -> NDArray[np.float64]:
     """(N, 3) finite numbers."""
-    array = np.asarray(value, dtype=np.float64)
+    array = real_array(value, name)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name} has shape {array.shape}, expected (N, 3)")
     bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
@@ -109,7 +117,7 @@ def vectors(value: ArrayLike, name: str) -> NDArray[np.float64]:
 
 
 def vector(value: ArrayLike, name: str) -> NDArray[np.float64]:
-    array = np.asarray(value, dtype=np.float64)
+    array = real_array(value, name)
     if array.shape != (3,) or not np.isfinite(array).all():
         raise ValueError(f"{name} is {array.tolist()}, expected three finite numbers")
     return array
