@@ -71,7 +71,7 @@ def main():
 
         moving = mass > 0
         new_step = 0.9 * np.sqrt(2 * mass[moving] / (own_stiffness + stiffness)[moving]).min()
-        new_step = min(new_step, result.kinematic_step)
+        new_step = min(new_step, result.kinematic_step, 1.1 * step if step > 0.0 else np.inf)   # steps grow slowly
         v_old = v
         v = v + 0.5 * (step + new_step) * inverse[:, None] * force
         interface.commit(new_step)

@@ -7,7 +7,7 @@
     interface.search(x, v, mass=m, time=t)                           # every step: who can touch,
     result = interface.evaluate(x, v, force, stiffness, mass=m, time=t)   # adds into the host's arrays,
     h = 0.9 * numpy.sqrt(2 * m / (own_stiffness + stiffness)).min()  # a step that is stable with them
-    h = min(h, result.kinematic_step)                                # and takes no node through the gap,
+    h = min(h, result.kinematic_step, 1.1 * last)                    # takes no node through the gap, and grows slowly,
     interface.commit(h)                                              # history moves on
 
 Units are the host's, as long as they are consistent.

@@ -53,6 +53,7 @@ struct HostState {
   double time = 0.0;  ///< t^n
   /// h_-, the step that ended at t^n (0 in the first cycle). Left 0 it is the one committed last; the first step after restore() must
   /// say it (std::logic_error). Friction, first and last forces and the swept test are made with it.
+  /// Steps may shrink as they like, but must not grow by more than 1.1 from one to the next: forces are foreseen that far.
   double dt = 0.0;
   /// (h_- + the one before)/2. First and last forces and accounts of pairs need it, as do reference impulses and incremental friction. Left
   /// 0 with dt: of the steps that were committed; left 0 beside a dt that is given: the step is constant.

@@ -127,6 +127,7 @@ struct StepResult {
   /// node takes the whole gap in a step. 0 where nothing closes in, in the first cycle, and always with Gap = 0, which has no such unit.
   double largest_approach = 0.0;
   /// Upper limit of the coming step: gap - P against closing speed, and the step that a light pair's last force was made for; 1e30: none.
+  /// It says nothing of the step before: a host lets its step grow by 1.1 from cycle to cycle and no more, see HostState::dt.
   double kinematic_step = 1e30;
   Index kinematic_node = no_index;  ///< host node that gives it
 };
