@@ -12,7 +12,6 @@ class Boxes {
  public:
   /// Reads all /BOX blocks; needs nodes and skews.
   explicit Boxes(Context& c);
-  [[nodiscard]] bool contains_id(Id box) const { return by_id_.count(box) > 0; }
   /// For each node whether it lies in or on box `id`; null when there is no such box. Lists are evaluated once.
   [[nodiscard]] const std::vector<bool>* nodes_inside(Id id);
 
