@@ -295,7 +295,7 @@ def test_sizes_of_nodes_and_facets_limit_the_gap():
         made.set_surface(1, stiffness=[FACET])
         forces.append(evaluated(made, x)[1][4:, 2])
     assert (forces[0] > forces[1]).all() and (forces[1] > 0.0).all()
-    with pytest.raises(ValueError, match="node_size and facet_size must be given with node_gap"):
+    with pytest.raises(ValueError, match="node_size and facet_size come with node_gap"):
         contact.BothSidesOptions(gap=0.1, node_size=[1.0], facet_size=[1.0])
 
 

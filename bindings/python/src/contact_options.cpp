@@ -1,11 +1,11 @@
 // Options and results of an interface.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "abut/contact/both_sides.hpp"
 #include "abut/contact/options.hpp"
 #include "arrays.hpp"
+#include "contact/enforce/check_options.hpp"
 #include "contact_names.hpp"
 #include "parts.hpp"
 
@@ -34,10 +34,6 @@ FrictionLaw friction_law(const std::string& model, const std::vector<double>& c)
   return law;
 }
 
-void check(bool good, const char* argument, const char* what_is_right) {
-  if (!good) throw py::value_error(std::string(argument) + " must be " + what_is_right);
-}
-
 void bind_friction(py::module_& m) {
   py::class_<FrictionLaw> law(m, "FrictionLaw",
                               "Coulomb coefficient as a function of pressure P and sliding speed v; C1..C6 = c, mu = Options.friction.\n\n"
@@ -52,9 +48,9 @@ void bind_friction(py::module_& m) {
 
   py::class_<FrictionFilter>(m, "FrictionFilter", "F <- a F + (1 - a) F_old: a constant share, or a = min(1, 2 pi frequency h).")
       .def(py::init([](double share, double frequency) {
-             check(share > 0.0 && share <= 1.0, "share", "above 0 and at most 1");
-             check(frequency >= 0.0, "frequency", "0 or more");
-             return FrictionFilter{share, frequency};
+             const FrictionFilter filter{share, frequency};
+             contact::check(filter);
+             return filter;
            }),
            "share"_a = 1.0, "frequency"_a = 0.0, "Raises ValueError for a share outside of (0, 1] or a negative frequency.")
       .def_readwrite("share", &FrictionFilter::share, "a; 1: no filter")
@@ -98,15 +94,6 @@ void bind_rules(py::module_& m) {
 Options one_sided(double stiffness_scale, double friction, const FrictionLaw& law, const FrictionFilter& filter, double tangential_ratio,
                   double gap, bool automatic_gap, double birth, double death, double start_duration, double shear_limit, double damping,
                   const std::string& initial, double depth_limit, const Rules& rules) {
-  check(stiffness_scale > 0.0 && std::isfinite(stiffness_scale), "stiffness_scale", "positive");
-  check(friction >= 0.0, "friction", "0 or more");
-  check(tangential_ratio > 0.0, "tangential_ratio", "positive");
-  check(gap >= 0.0 && std::isfinite(gap), "gap", "0 or more");
-  check(death > birth, "death", "later than birth");
-  check(start_duration >= 0.0, "start_duration", "0 or more");
-  check(shear_limit > 0.0, "shear_limit", "positive");
-  check(damping >= 0.0 && damping <= 1.0, "damping", "between 0 and 1");
-  check(depth_limit >= 0.0, "depth_limit", "0 or more");
   Options o;
   o.stiffness_scale = stiffness_scale;
   o.friction = friction;
@@ -123,6 +110,7 @@ Options one_sided(double stiffness_scale, double friction, const FrictionLaw& la
   o.initial = named(initial, "initial", initials);
   o.depth_limit = depth_limit;
   o.rules = rules;
+  contact::check(o);
   return o;
 }
 
@@ -170,18 +158,6 @@ BothSides two_sided(double gap, const std::string& stiffness, double stiffness_m
                     const std::optional<ArrayLike>& node_gap, const std::optional<ArrayLike>& facet_gap, double gap_max,
                     const std::optional<ArrayLike>& node_size, const std::optional<ArrayLike>& facet_size, double step_minimum,
                     double step_scale, bool reference_step, bool switch_correction, bool all_pieces) {
-  check(gap > 0.0 && std::isfinite(gap), "gap", "positive and finite");
-  check(stiffness_min >= 0.0 && stiffness_max >= stiffness_min, "stiffness_min", "0 or more and at most stiffness_max");
-  check(friction >= 0.0, "friction", "0 or more");
-  check(damping >= 0.0, "damping", "0 or more");
-  check(friction_viscosity >= 0.0, "friction_viscosity", "0 or more");
-  check(largest_penetration >= 0.0, "largest_penetration", "0 or more");
-  check(death > birth, "death", "later than birth");
-  check(node_gap.has_value() == facet_gap.has_value(), "node_gap and facet_gap", "given together");
-  check(node_size.has_value() == facet_size.has_value(), "node_size and facet_size", "given together");
-  check(!node_size || node_gap, "node_size and facet_size", "given with node_gap and facet_gap");
-  check(step_minimum >= 0.0, "step_minimum", "0 or more");
-  check(step_scale > 0.0, "step_scale", "positive");
   const auto list = [](const std::optional<ArrayLike>& value, const char* name) {
     const Reals values = reals(value, name);
     return std::vector<double>(values.span.begin(), values.span.end());
@@ -211,6 +187,7 @@ BothSides two_sided(double gap, const std::string& stiffness, double stiffness_m
   o.reference_step = reference_step;
   o.switch_correction = switch_correction;
   o.all_pieces = all_pieces;
+  contact::check(o);
   return o;
 }
 

@@ -38,9 +38,9 @@ struct BothSidesOptions {
   enum class Initial { keep, offset, offset_with_margin, drop_nodes, drop_facets } initial = Initial::keep;
   double largest_penetration = 0.0;  ///< Fpenmax: nodes deeper than this share of the gap at the start leave; 0: off
 
-  double birth = 0.0, death = 1e30;  ///< times from which and until which it acts
+  double birth = 0.0, death = 1e30;  ///< times from which and until which it acts, death > birth
   double step_minimum = 0.0;         ///< time: nodes whose contact step falls below leave for good; 0: off
-  double step_scale = 0.9;           ///< factor of that test
+  double step_scale = 0.9;           ///< factor of that test, > 0
   /// What dampers hand to the nodal sum: c/h as the reference program, or 2 c/h and the friction spring too, which keeps two free
   /// bodies stable (forces at t^n are made of speeds at n - 1/2: h <= 2/lambda(C)).
   bool reference_step = false;

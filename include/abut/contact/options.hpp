@@ -68,7 +68,7 @@ struct Options {
   /// points only (Rules::edges).
   bool automatic_gap = false;
   double birth = 0.0;   ///< time from which the interface acts
-  double death = 1e30;  ///< time after which it does not
+  double death = 1e30;  ///< time after which it does not, > birth
   /// Gradual start: what overlaps (or lies within the gap) at birth is pushed apart over this time, not at once. Each node's
   /// gap begins at what is there, as with Initial::offset, and grows to the full gap; 0: off. With `keep` and `offset` only.
   double start_duration = 0.0;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/enforce/check_options.hpp"
 #include "contact/enforce/history.hpp"
 
 namespace abut::contact {
@@ -27,40 +28,11 @@ double warp(const Side& surface) {
   return std::sqrt(largest) / 16.0;
 }
 
-BothSidesOptions checked(BothSidesOptions o) {
-  const auto positive = [](double value, const char* what) {
-    if (!(value >= 0.0) || !std::isfinite(value)) {
-      throw std::invalid_argument("contact: " + std::string(what) + " must be >= 0 and finite, not " + std::to_string(value));
-    }
-  };
-  if (!(o.gap > 0.0) || !std::isfinite(o.gap)) throw std::invalid_argument("a two-sided interface needs a gap > 0 that is finite");
-  positive(o.friction, "friction");
-  for (const double c : o.friction_law.c) {
-    if (!std::isfinite(c)) throw std::invalid_argument("contact: coefficients of the friction law must be finite");
-  }
-  positive(o.damping, "damping");
-  positive(o.friction_viscosity, "friction_viscosity");
-  positive(o.filter.frequency, "filter frequency");
-  positive(o.step_minimum, "step_minimum");
-  positive(o.largest_penetration, "largest_penetration");
-  positive(o.stiffness_min, "stiffness_min");
-  if (!(o.stiffness_max >= o.stiffness_min)) throw std::invalid_argument("contact: stiffness_max must be at least stiffness_min");
-  if (!(o.gap_max > 0.0)) throw std::invalid_argument("contact: gap_max must be > 0");
-  if (std::isnan(o.birth) || std::isnan(o.death)) throw std::invalid_argument("contact: birth and death must be times");
-  if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) throw std::invalid_argument("filter share must be > 0 and at most 1");
-  if (o.node_gap.empty() != o.facet_gap.empty()) throw std::invalid_argument("node_gap and facet_gap: both or none");
-  if (o.node_size.empty() != o.facet_size.empty()) throw std::invalid_argument("node_size and facet_size: both or none");
-  check_finite(o.node_gap, "node_gap");
-  check_finite(o.facet_gap, "facet_gap");
-  check_finite(o.node_size, "node_size");
-  check_finite(o.facet_size, "facet_size");
-  return o;
-}
-
 }  // namespace
 
 BothSides::BothSides(std::vector<Index> nodes, Surface surface, BothSidesOptions options)
-    : options_(checked(std::move(options))), held_(nodes, std::vector<double>(nodes.size(), 0.0)), surface_(std::move(surface), true) {
+    : options_(std::move(options)), held_(nodes, std::vector<double>(nodes.size(), 0.0)), surface_(std::move(surface), true) {
+  check(options_);
   check_held_nodes(held_.nodes());
   if (!options_.node_gap.empty() && options_.node_gap.size() != nodes.size())
     throw std::invalid_argument("node_gap: one value per held node");

@@ -6,36 +6,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "contact/enforce/check_options.hpp"
 #include "contact/project/plain.hpp"
 
 namespace abut::contact {
 namespace {
-
-void check(const Options& o) {
-  const auto refuse = [](const char* what, double value) {
-    throw std::invalid_argument(std::string("contact: ") + what + ", not " + std::to_string(value));
-  };
-  if (!(o.stiffness_scale > 0.0) || !std::isfinite(o.stiffness_scale)) refuse("stiffness_scale must be > 0", o.stiffness_scale);
-  if (!(o.friction >= 0.0) || !std::isfinite(o.friction)) refuse("friction must be >= 0 and finite", o.friction);
-  for (const double c : o.friction_law.c) {
-    if (!std::isfinite(c)) refuse("coefficients of the friction law must be finite", c);
-  }
-  if (!(o.tangential_ratio > 0.0) || !std::isfinite(o.tangential_ratio)) refuse("tangential_ratio must be > 0", o.tangential_ratio);
-  if (!(o.gap >= 0.0) || !std::isfinite(o.gap)) refuse("gap must be >= 0", o.gap);
-  if (!(o.damping >= 0.0 && o.damping <= 1.0)) refuse("damping must be 0 to 1 of critical", o.damping);
-  if (!(o.filter.share > 0.0 && o.filter.share <= 1.0)) refuse("filter share must be > 0 and at most 1", o.filter.share);
-  if (!(o.filter.frequency >= 0.0) || !std::isfinite(o.filter.frequency)) refuse("filter frequency must be >= 0", o.filter.frequency);
-  if (std::isnan(o.birth) || std::isnan(o.death)) refuse("birth and death must be times", std::isnan(o.birth) ? o.birth : o.death);
-  if (!(o.shear_limit > 0.0)) refuse("shear_limit must be > 0", o.shear_limit);
-  if (!(o.start_duration >= 0.0) || !std::isfinite(o.start_duration)) refuse("start_duration must be >= 0", o.start_duration);
-  if (o.start_duration > 0.0 && (o.initial == Initial::project || o.initial == Initial::ignore)) {
-    throw std::invalid_argument("contact: a gradual start pushes initial penetrations out; it cannot be had with project or ignore");
-  }
-  if (o.automatic_gap && o.rules.edges == Edges::plain) {
-    throw std::invalid_argument("contact: automatic_gap cannot be had with plain edges");
-  }
-  if (!(o.depth_limit >= 0.0)) refuse("depth_limit must be >= 0", o.depth_limit);
-}
 
 // Sums over nodes run over pieces of so many nodes, then over the pieces: their order does not depend on threads.
 constexpr std::size_t piece = 512;

@@ -109,6 +109,36 @@ TEST(Refused, contacts_whose_stiffness_was_never_given) {
   }
 }
 
+// A window without time would be no contact; a choice that does not exist would be some other one.
+TEST(Refused, options_that_mean_nothing) {
+  Host host;
+  const Surface surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat));
+  const auto one = [&](const auto& change) {
+    Options o;
+    change(o);
+    EXPECT_THROW((void)Interface::nodes_to_surface({4}, {}, surface, o), std::invalid_argument);
+  };
+  one([](Options& o) { o.birth = 1.0, o.death = 0.5; });
+  one([](Options& o) { o.birth = o.death = 1.0; });
+  one([](Options& o) { o.initial = static_cast<Initial>(4); });
+  one([](Options& o) { o.rules.law = static_cast<Law>(2); });
+  one([](Options& o) { o.rules.edges = static_cast<Edges>(-1); });
+  one([](Options& o) { o.friction_law.model = static_cast<FrictionLaw::Model>(5); });
+  const auto both = [&](const auto& change) {
+    BothSidesOptions o;
+    o.gap = 0.1;
+    change(o);
+    EXPECT_THROW((void)Interface::both_sides({4}, surface, o), std::invalid_argument);
+  };
+  using Both = BothSidesOptions;
+  both([](Both& o) { o.birth = 1.0, o.death = 0.5; });
+  both([](Both& o) { o.initial = static_cast<Both::Initial>(5); });
+  both([](Both& o) { o.stiffness = static_cast<Both::Stiffness>(5); });
+  both([](Both& o) { o.friction_form = static_cast<Both::Friction>(2); });
+  both([](Both& o) { o.step_scale = 0.0; });
+  both([](Both& o) { o.node_size = {1.0}, o.facet_size = {1.0}; });
+}
+
 TEST(Refused, stiffness_of_held_nodes) {
   Host host;
   const Surface surface(grid(host, 1, 1, 0.0, 1.0, 0.0, 1.0, flat));
