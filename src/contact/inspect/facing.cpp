@@ -95,7 +95,7 @@ class Looker {
     }
     const double cosine = dot(normal, sight) / distance;
     if (std::abs(cosine) < clear_cosine) return;
-    if (cosine < 0.0 && own_.outward(f) > 0 && distance < 0.5 * size_of(own_, f)) {
+    if (cosine < 0.0 && own_.outward(f) > 0 && distance < 0.5 * size_of(own_, f) && !(is_shell(f) && along(f, seen) > clear_cosine)) {
       views_.overlaps[at(f)] = 1;  // the surfaces of two bodies have passed each other: their normals are right
       return;
     }
@@ -104,11 +104,21 @@ class Looker {
     votes_[at(f)].weight += std::abs(cosine);
   }
 
-  // Without a distance there is no line of sight: a body tells which side is out, two shells only whether they agree.
+  // A closed piece of shells: which of its sides is touched depends on whether the other body is around it or within it.
+  [[nodiscard]] bool is_shell(Index f) const { return own_.out_of_solid(f) == 0; }
+
+  // Cosine between a facet's normal and that out of the other side's body there; 0 where this is not known.
+  [[nodiscard]] double along(Index f, Index seen) const {
+    return other_.is_nodes() ? 0.0 : other_.outward(seen) * dot(own_.normal(f), other_.normal(seen));
+  }
+
+  // Without a distance there is no line of sight: bodies tell which side is out, two shells only whether they agree.
   void touch(Index f, Index seen) {
     const int outward = own_.outward(f);
     if (outward != 0) {
-      votes_[at(f)].sum += outward;
+      const double cosine = is_shell(f) ? along(f, seen) : 0.0;
+      const int side = cosine > clear_cosine ? -1 : (cosine < -clear_cosine ? 1 : outward);
+      votes_[at(f)].sum += side;
       votes_[at(f)].weight += 1.0;
     } else if (!other_.is_nodes() && dot(own_.normal(f), other_.normal(seen)) > clear_cosine) {
       views_.alike[at(f)] = 1;
@@ -186,7 +196,7 @@ std::vector<std::array<PieceVote, 2>> piece_votes(const Shape& shape, const Faci
   std::vector<std::array<PieceVote, 2>> votes(at(shape.piece_count()));
   for (Index f = 0; f < shape.count(); ++f) {
     const int answer = facing.facet[at(f)];
-    if (answer == 0) continue;
+    if (answer == 0 || (answer < 0 && shape.out_of_solid(f) > 0)) continue;  // what looks out of its solid is not the wrong way round
     auto& piece = votes[at(shape.piece(f))];
     const bool turned = shape.turned(f);
     (answer > 0 ? piece[turned].facing : piece[turned].away) += shape.area(f);

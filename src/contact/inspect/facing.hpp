@@ -33,7 +33,8 @@ void check(const InspectionInput& input);
 /// Where facets repel on both sides: only the reach and the smallest distance of a node of side 0 to the facets that it is no corner of.
 [[nodiscard]] BothViews look_unsigned(const std::array<Shape, 2>& shapes, std::span<const Vec3> x, double gap);
 
-/// Net answer of a piece in one of its two orientations, by area.
+/// Net answer of a piece in one of its two orientations, by area; without facets that see the other side behind them but look out of their
+/// solid.
 struct PieceVote {
   double facing = 0.0, away = 0.0;   ///< as the facets are
   double score = 0.0, weight = 0.0;  ///< with all facets turned to the orientation of the piece's first facet

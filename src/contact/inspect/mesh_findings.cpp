@@ -73,15 +73,33 @@ void find_topology(const InspectionContext& c) {
 
 namespace {
 
+// Facets that look out of their solid and see the other side behind them: they cannot be reversed. Where others of their side stand or
+// overlap before the other one, a body beside or below the contact is nothing to speak of.
+void find_behind_solids(const InspectionContext& c, int k, std::vector<Index> behind) {
+  const Views& view = c.views.side[at(k)];
+  if (view.facing.area_facing > 0.0 || std::any_of(view.overlaps.begin(), view.overlaps.end(), [](std::uint8_t o) { return o != 0; }))
+    return;
+  c.add_facets(
+      Severity::error, "contact.normals_away", k, std::move(behind),
+      {"segment looks", "segments look",
+       "out of the solid behind and away from the other side, up to " + short_number(view.away_distance) + " away; none faces it",
+       "Contact would not be felt there: take the faces that meet the other side, or separate the bodies if they overlap by that much."},
+      {"facing fraction", 0.0});
+}
+
 void find_away(const InspectionContext& c, int k, const std::vector<std::array<PieceVote, 2>>& votes) {
   const Shape& s = c.shapes[at(k)];
   const Views& view = c.views.side[at(k)];
   const double fraction = view.facing.fraction();
-  std::vector<Index> away, partly, alike;
+  std::vector<Index> away, partly, alike, behind;
   for (Index f = 0; f < s.count(); ++f) {
     if (view.alike[at(f)] != 0) alike.push_back(f);
     if (view.facing.facet[at(f)] >= 0) continue;
     const PieceVote& vote = votes[at(s.piece(f))][s.turned(f)];
+    if (s.out_of_solid(f) > 0) {
+      behind.push_back(f);
+      continue;
+    }
     (vote.away > vote.facing ? away : partly).push_back(f);
   }
   if (!away.empty()) {
@@ -98,6 +116,7 @@ void find_away(const InspectionContext& c, int k, const std::vector<std::array<P
         "that much at the start, separate them.";
     f.facets = std::move(away);
   }
+  find_behind_solids(c, k, std::move(behind));
   c.add_facets(Severity::error, "contact.normals_alike", k, std::move(alike),
                {"segment touches", "segments touch", "the other side with a normal that points the same way",
                 "One of the two surfaces is the wrong way round: reverse the one whose normals point into its own body."});

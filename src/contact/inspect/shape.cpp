@@ -259,11 +259,6 @@ void Shape::find_outside() {
     closed_[p] = closable_[p] == 0 || one_sided_[p] != 0 || volume[p] == 0.0 ? 0 : (volume[p] > 0.0 ? 1 : -1);
 }
 
-int Shape::outward(Index f) const {
-  if (!side_.outward.empty() && side_.outward[at(f)] != 0) return side_.outward[at(f)];
-  return closed(piece(f));
-}
-
 NearPoint Shape::nearest(const Vec3& from, double radius, Index except, Index guess) const {
   NearPoint best;
   double within = radius * radius;

@@ -66,8 +66,10 @@ class Shape {
   [[nodiscard]] bool one_sided(Index piece) const { return one_sided_[static_cast<std::size_t>(piece)] != 0; }
   /// +1 normals of a closed piece that point out of it, -1 into it, 0 an open or mixed piece.
   [[nodiscard]] int closed(Index piece) const { return closed_[static_cast<std::size_t>(piece)]; }
-  /// +1 the normal looks out of a body (solid behind, or a closed piece), -1 into it, 0 not known.
-  [[nodiscard]] int outward(Index f) const;
+  /// +1 the normal looks out of the solid behind the facet, -1 into it, 0 no solid is known.
+  [[nodiscard]] int out_of_solid(Index f) const { return side_.outward.empty() ? 0 : side_.outward[static_cast<std::size_t>(f)]; }
+  /// The same, where no solid is known of the closed piece.
+  [[nodiscard]] int outward(Index f) const { return out_of_solid(f) != 0 ? out_of_solid(f) : closed(piece(f)); }
 
   /// Nearest point within `radius`, on facets that do not have the node `except` for a corner.
   /// @param guess  an item that may be near: it only makes the search short

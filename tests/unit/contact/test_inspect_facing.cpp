@@ -89,6 +89,54 @@ TEST(Facing, a_closed_body_tells_overlap_from_reversal) {
   EXPECT_TRUE(test::has(found, "contact.overlap", 1));
 }
 
+/// A block of solids that has sunk a little into another, a hair within its border or far from it: the faces beside see the other block
+/// behind them, farther than half a segment, and are right.
+TEST(Facing, faces_that_look_out_of_their_solid_are_never_reversed) {
+  for (const double inset : {0.003, 0.006, 0.01, 0.018}) {
+    Pair p;
+    p.facets[0] = p.box({0.0, 0.0, 0.0}, {0.1, 0.1, 0.05}, 10, false);
+    p.facets[1] = p.box({inset, inset, 0.0495}, {0.1 - 2.0 * inset, 0.1 - 2.0 * inset, 0.03}, 8, false);
+    for (std::size_t k = 0; k < 2; ++k) p.outward[k].assign(p.facets[k].size(), 1);
+    const auto found = inspect(p.input());
+    EXPECT_FALSE(test::has_errors(found)) << inset;
+    EXPECT_TRUE(test::has(found, "contact.overlap", 0) && test::has(found, "contact.overlap", 1)) << inset;
+    const Orientation o = orient(p.input());
+    EXPECT_TRUE(o.flip[0].empty() && o.flip[1].empty()) << inset;
+  }
+}
+
+/// Where no face of a solid's surface has the other side before it, contact is felt nowhere: an error that does not ask to reverse
+/// anything.
+TEST(Facing, T31_a_surface_behind_the_faces_of_its_solid) {
+  Pair p;
+  p.facets[0] = p.plate(8, 8, 0.0, 1.0, 0.0, true);  // the top of a block, the other body is below that block
+  p.outward[0].assign(p.facets[0].size(), 1);
+  p.facets[1] = p.plate(6, 6, 0.1, 0.9, -0.1, true);
+  const auto found = inspect(p.input());
+  const Finding* away = test::find(found, "contact.normals_away", 0);
+  ASSERT_NE(away, nullptr);
+  EXPECT_EQ(away->advice.find("everse"), std::string::npos) << away->advice;
+  EXPECT_TRUE(orient(p.input()).flip[0].empty());
+}
+
+/// A block within a closed box of shells, at any clearance or none: the box must look inwards. Outward normals prove nothing there.
+TEST(Facing, T31_what_lies_within_a_closed_shell_tells_its_side) {
+  for (const double clearance : {0.0, 0.001, 0.005, 0.009, 0.011, 0.02}) {
+    for (const bool inward : {false, true}) {
+      Pair p;
+      p.facets[0] = p.box({0.0, 0.0, 0.0}, {0.1, 0.1, 0.1}, 5, inward);
+      const double size = 0.1 - 2.0 * clearance;
+      p.facets[1] = p.box({clearance, clearance, clearance}, {size, size, size}, 4, false);
+      p.outward[1].assign(p.facets[1].size(), 1);
+      EXPECT_EQ(test::has(inspect(p.input()), "contact.normals_away", 0), !inward) << clearance;
+      EXPECT_FALSE(test::has(inspect(p.input()), "contact.normals_away", 1)) << clearance;
+      const Orientation o = orient(p.input());
+      EXPECT_EQ(o.flip[0].size(), inward ? 0u : p.facets[0].size()) << clearance;
+      EXPECT_TRUE(o.flip[1].empty()) << clearance;
+    }
+  }
+}
+
 /// Concentric cylinders: a shaft in a ring, either of them turned inside out; meshes that do not match.
 TEST(Facing, T5_cylinders) {
   for (const bool shaft_wrong : {false, true}) {
