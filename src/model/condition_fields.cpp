@@ -96,10 +96,17 @@ int read_direction(BlockReader& r, deck::Columns c, std::string_view field) {
 }
 
 Place place_of(const Context& c, std::string_view word, Id id, int nth) {
-  for (const deck::Block& block : c.deck->blocks) {
-    if (!is_keyword(block, word)) continue;
-    const std::string_view text = is_id(block.word(1)) && !same_word(word, "ADMAS") ? block.word(1) : block.word(2);
-    if (deck::parse_integer(text) == id && nth-- == 0) return c.deck->place(block);
+  auto known = c.blocks_by_id.find(word);
+  if (known == c.blocks_by_id.end()) {
+    known = c.blocks_by_id.emplace(word, std::unordered_map<Id, std::vector<const deck::Block*>>()).first;
+    for (const deck::Block& block : c.deck->blocks) {
+      if (!is_keyword(block, word)) continue;
+      const std::string_view text = is_id(block.word(1)) && !same_word(word, "ADMAS") ? block.word(1) : block.word(2);
+      if (const auto number = deck::parse_integer(text)) known->second[*number].push_back(&block);
+    }
+  }
+  if (const auto found = known->second.find(id); found != known->second.end() && static_cast<std::size_t>(nth) < found->second.size()) {
+    return c.deck->place(*found->second[static_cast<std::size_t>(nth)]);
   }
   Place p;
   p.keyword = fmt::format("/{}/{}", word, id);

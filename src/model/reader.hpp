@@ -1,11 +1,14 @@
 // What the readers of single keywords share: units, cards of one block with typed fields, tables of ids.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "core/diagnostic.hpp"
 #include "deck/deck.hpp"
@@ -67,6 +70,8 @@ struct Context {
   Units input;                                 ///< units of the deck's values; work units are model->units
   std::unordered_map<Id, Units> local;         ///< /UNIT/id
   std::vector<FieldUse>* field_log = nullptr;  ///< receives every field that is looked at (keyword_table.hpp); usually none
+  /// Blocks of a keyword by id, in the order of the deck. Filled by place_of() for the keywords that it is asked for.
+  mutable std::map<std::string, std::unordered_map<Id, std::vector<const deck::Block*>>, std::less<>> blocks_by_id;
 
   /// Factor from the deck's value to the work unit, with the local unit system `unit_id` (0: input units of /BEGIN).
   [[nodiscard]] double factor(Dimension d, Id unit_id) const;
