@@ -63,6 +63,7 @@ void RigidBodies::claim(std::size_t index, bool on) {
 }
 
 void RigidBodies::initialise(state::State& state) {
+  take_axis_spins();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].on) switch_on(i, state, true);
   }

@@ -187,6 +187,7 @@ class RigidBodies {
     HeldRows held;                 ///< of the cycle, from hold() on
     Vec3 held_force, held_moment;  ///< at the main node, this cycle
     Inertia inertia;
+    Vec3 axis_spin;                            ///< of the main node's initial velocity, when that is one about an axis; else 0
     double own_mass = 0.0, own_inertia = 0.0;  ///< of the main node alone
     Vec3 own_moment;                           ///< moment on the main node alone, this cycle
     Vec3 entry_w;                              ///< angular velocity of the main node at gather
@@ -196,8 +197,7 @@ class RigidBodies {
   };
   void follow_sensors(state::State& state);
   void switch_on(std::size_t index, state::State& state, bool at_start);
-  /// Of the initial velocity of a main node, when that is one about an axis; else 0.
-  [[nodiscard]] Vec3 axis_spin(Index main) const;
+  void take_axis_spins();
   void switch_off(std::size_t index, state::State& state);
   void compute_inertia(std::size_t index, state::State& state, int icog, bool card_values);
   void claim(std::size_t index, bool on);

@@ -74,13 +74,14 @@ void RigidBodies::compute_inertia(std::size_t index, state::State& state, int ic
   state.inertia[main] = std::min({principal[0], principal[1], principal[2]});
 }
 
-Vec3 RigidBodies::axis_spin(Index main) const {
-  const auto& cards = model_->initial_velocities;
-  const auto names = [main](const model::InitialVelocity& v) {
-    return !v.rotational && std::find(v.nodes.begin(), v.nodes.end(), main) != v.nodes.end();
-  };
-  const auto last = std::find_if(cards.rbegin(), cards.rend(), names);
-  return last != cards.rend() ? last->spin : Vec3{};
+void RigidBodies::take_axis_spins() {
+  if (bodies_.empty()) return;
+  std::vector<Vec3> spin(at(model_->node_count()));
+  for (const model::InitialVelocity& v : model_->initial_velocities) {
+    if (v.rotational) continue;
+    for (const Index n : v.nodes) spin[at(n)] = v.spin;
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].axis_spin = spin[at(model_->rigid_bodies[i].main)];
 }
 
 void RigidBodies::switch_on(std::size_t index, state::State& state, bool at_start) {
@@ -96,7 +97,7 @@ void RigidBodies::switch_on(std::size_t index, state::State& state, bool at_star
     const Vec3 typed = state.x[main];
     compute_inertia(index, state, card.sensor == no_index ? card.icog : 3, card.sensor == no_index);
     // A velocity typed for the main node is the body's; of a rotation about an axis, the one where the node has moved to.
-    state.v[main] += cross(axis_spin(card.main), state.x[main] - typed);
+    state.v[main] += cross(body.axis_spin, state.x[main] - typed);
     follow_centre();
   } else {
     // Perfectly plastic impact: the body takes over the momentum and the angular momentum of its nodes.
