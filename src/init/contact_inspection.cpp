@@ -68,24 +68,28 @@ struct ContactNode {
 };
 
 std::vector<ContactNode> contact_nodes(const contact::InspectionInput& input, std::span<const Vec3> x) {
-  std::vector<ContactNode> all(x.size(), ContactNode{no_index, {}, 0.0});
+  std::vector<Index> nodes;  // not a place for every node of the model: there may be as many interfaces as parts
+  for (const contact::InspectedSide& side : input.side) {
+    for (const contact::Facet& f : side.facets) nodes.insert(nodes.end(), f.node.begin(), f.node.begin() + f.corners());
+    if (side.facets.empty()) nodes.insert(nodes.end(), side.nodes.begin(), side.nodes.end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<ContactNode> all;
+  for (const Index n : nodes) all.push_back({n, {}, 0.0});
   for (const contact::InspectedSide& side : input.side) {
     for (const contact::Facet& f : side.facets) {
       const Index last = f.is_triangle() ? f.node[2] : f.node[3];
       const Vec3 doubled = cross(x[at(f.node[2])] - x[at(f.node[0])], x[at(last)] - x[at(f.node[1])]);
       const double size = std::sqrt(0.5 * norm(doubled));
       for (std::size_t k = 0; k < static_cast<std::size_t>(f.corners()); ++k) {
-        ContactNode& c = all[at(f.node[k])];
-        c.node = f.node[k];
+        const auto place = std::lower_bound(nodes.begin(), nodes.end(), f.node[k]) - nodes.begin();
+        ContactNode& c = all[static_cast<std::size_t>(place)];
         c.normal += doubled;
         c.size = std::max(c.size, size);
       }
     }
-    if (side.facets.empty()) {
-      for (const Index n : side.nodes) all[at(n)].node = n;
-    }
   }
-  std::erase_if(all, [](const ContactNode& c) { return c.node == no_index; });
   for (ContactNode& c : all) {
     const double length = norm(c.normal);
     if (length > 0.0) c.normal = c.normal / length;

@@ -39,17 +39,27 @@ std::string property_text(const model::Property& property) {
   return std::visit(Text{}, property.data);
 }
 
-Index elements_of_part(const model::Model& model, Index part) {
-  const auto count = [part](const auto& table) { return std::count(table.part.begin(), table.part.end(), part); };
-  return static_cast<Index>(count(model.shells) + count(model.sh3ns) + count(model.bricks) + count(model.tetras));
+std::vector<Index> elements_of_parts(const model::Model& model) {
+  std::vector<Index> out(model.parts.size(), 0);
+  const auto count = [&out](const auto& table) {
+    for (const Index part : table.part) {
+      if (part != no_index) ++out[static_cast<std::size_t>(part)];
+    }
+  };
+  count(model.shells);
+  count(model.sh3ns);
+  count(model.bricks);
+  count(model.tetras);
+  return out;
 }
 
 void print_parts(std::string& out, const model::Model& model, std::span<const double> part_mass) {
   print(out, "Parts\n");
   double total = 0.0;
+  const std::vector<Index> elements = elements_of_parts(model);
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const model::Part& part = model.parts[p];
-    print(out, "  {:>8}  {:>8} elements", part.id, elements_of_part(model, static_cast<Index>(p)));
+    print(out, "  {:>8}  {:>8} elements", part.id, elements[p]);
     if (p < part_mass.size()) {
       print(out, "  mass {:<12.6g}", part_mass[p]);
       total += part_mass[p];
