@@ -188,6 +188,13 @@ def bound_by_wall(p):
     p.fill((20, 84), (240, 84), (240, 100), (20, 100)).node((80, 80), (130, 80), (180, 80)).text(100, 98, "rigid wall")
 
 
+def same_pair(p):
+    upper(lower(p))
+    for x, label in ((95, "1"), (165, "2")):
+        p.line((x, 30), (x, 40), (x - 8, 43), (x + 8, 49), (x - 8, 55), (x + 8, 61), (x, 64), (x, 80), width=1.5).text(x + 12, 60, label)
+    p.text(60, 102, "two interfaces: K1 + K2")
+
+
 def initial_penetration(p):
     upper(lower(p), y=55)
     p.thin((30, 40), (230, 40)).arrow(216, 40, 0, 15).text(222, 52, "P").text(36, 38, "gap", GREY)
@@ -256,7 +263,7 @@ def lost_over_border(p):
 
 DRAWINGS = [shared_nodes, degenerate_facets, duplicate_facets, normals_away, normals_alike, partly_away, mixed_orientation, one_sided,
             junctions, no_stiffness, overlap, out_of_reach, stiffness_ratio, size_ratio, gap_large, gap_small, interface_step,
-            aspect_ratio, warp, bound_by_wall, initial_penetration, clearance, blind_nodes, concave, bound_by_condition, bound_by_body,
+            aspect_ratio, warp, bound_by_wall, same_pair, initial_penetration, clearance, blind_nodes, concave, bound_by_condition, bound_by_body,
             oriented, turned_away, deep_penetration, energy_made, crossed, lost_over_border]
 
 

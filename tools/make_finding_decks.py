@@ -111,6 +111,10 @@ def body(deck):
     deck.lines.insert(position + 51, f"{51:>10}{reals(SIDE / 2, SIDE / 2, DISTANCE)}")
 
 
+def second(deck):
+    deck.contact(2, "plate on plate again", 2, 1, friction=0, gap=GAP)
+
+
 DECKS = {
     "sound": dict(story="Two plates that face each other: nothing to complain about."),
     "normals_away": dict(story="The upper plate looks up.", upper_down=False),
@@ -138,6 +142,7 @@ DECKS = {
                              end=2e-5),
     "partly_away": dict(story="A part of the lower plate has been pushed up through the upper one.", lower=8, upper=8, raised=3e-3),
     "no_stiffness": dict(story="One segment of the lower surface is on no element.", loose=True),
+    "same_pair": dict(story="A second interface acts between the same two surfaces.", extra=second),
     "bound_by_body": dict(story="The upper plate is a rigid body.", extra=body),
     "turned_away": dict(story="The upper plate turns over; its surface then looks up.", distance=0.054, gap=0.03, spin=2e3, end=2.2e-3, stfac=1e-9,
                         start=1.4e-3),

@@ -11,6 +11,7 @@
 #include "init/contact_options.hpp"
 #include "init/contact_stiffness.hpp"
 #include "init/face_owners.hpp"
+#include "init/same_pair.hpp"
 
 namespace abut::init {
 
@@ -166,12 +167,27 @@ void kinematic_findings(const model::Model& model, const HeldDirections& held, s
     f.advice = advice;
     out.push_back(std::move(f));
   };
-  finish(wall, contact::Severity::warning, kinematic_codes[0], "by a rigid wall across the contact",
+  finish(wall, contact::Severity::warning, model_codes[0], "by a rigid wall across the contact",
          "The wall overrides what the contact asks for: leave these nodes out of the wall, or let the wall alone carry them.");
-  finish(condition, contact::Severity::note, kinematic_codes[1], "by a boundary condition or an imposed motion along the normal",
+  finish(condition, contact::Severity::note, model_codes[1], "by a boundary condition or an imposed motion along the normal",
          "Contact forces on them go into the support and move nothing; leave them out of the condition if they are to give way.");
-  finish(body, contact::Severity::note, kinematic_codes[2], "by a rigid body",
+  finish(body, contact::Severity::note, model_codes[2], "by a rigid body",
          "They move with the body, whose mass then counts for the contact; the interface time step is that of the body.");
+}
+
+/// The same contact a second time: its springs add up.
+void same_pair_finding(const std::vector<const model::Interface*>& others, std::vector<contact::Finding>& out) {
+  if (others.empty()) return;
+  contact::Finding f;
+  f.severity = contact::Severity::warning;
+  f.code = model_codes[3];
+  f.measure_name = "interfaces before this one on its two sides";
+  f.measure = static_cast<double>(others.size());
+  f.what = fmt::format(
+      "{} {} between the same two sides at the same time: their stiffnesses add up", others.size() == 1 ? "interface" : "interfaces",
+      list_of(others, [](const model::Interface* i) { return fmt::format("{}", i->id); }) + (others.size() == 1 ? " acts" : " act"));
+  f.advice = "Keep one of them; for a stiffer contact raise its Stfac.";
+  out.push_back(std::move(f));
 }
 
 /// Initial penetrations of a TYPE7: Inacti may take them away, and an automatic gap is where they come from unasked.
@@ -273,6 +289,7 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
                   [](const model::Interface& i) { return !std::holds_alternative<model::InterfaceType3>(i.type); })) {
     owners.emplace(model);
   }
+  SamePairs pairs(model);
   for (const model::Interface& card : model.interfaces) {
     const InspectedInterface inspected(model, card, x, choices);
     contact::InspectionInput input = inspected.input(x);
@@ -294,6 +311,7 @@ std::vector<ContactFinding> inspect_contacts(const model::Model& model, const In
     if (facing != nullptr) facing->push_back({sides[0].fraction(), sides[1].fraction()});
     const std::vector<ContactNode> nodes = contact_nodes(input, x);
     kinematic_findings(model, held, nodes, x, in_body, findings);
+    same_pair_finding(pairs.add(card), findings);
     follow_card(card, input.gap, findings);
     for (contact::Finding& f : findings) {
       ContactFinding c;

@@ -1,4 +1,5 @@
-// The inspection of a model's interfaces: contact::inspect() in the deck's ids, and what only the model knows (kinematic conflicts).
+// The inspection of a model's interfaces: contact::inspect() in the deck's ids, and what only the model knows (kinematic conflicts, the
+// same pair twice).
 #pragma once
 
 #include <array>
@@ -72,6 +73,7 @@ class InspectedInterface {
 };
 
 /// Codes of the findings that inspect_contacts adds to contact::inspection_codes().
-inline constexpr std::string_view kinematic_codes[] = {"contact.bound_by_wall", "contact.bound_by_condition", "contact.bound_by_body"};
+inline constexpr std::string_view model_codes[] = {"contact.bound_by_wall", "contact.bound_by_condition", "contact.bound_by_body",
+                                                   "contact.same_pair"};
 
 }  // namespace abut::init

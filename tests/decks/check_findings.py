@@ -35,6 +35,7 @@ BEFORE = {
     "contact.no_stiffness": ("no_stiffness", "warning", "sound"),
     "contact.concave": ("concave", "note", "sound"),
     "contact.bound_by_wall": ("bound_by_wall", "warning", "sound"),
+    "contact.same_pair": ("same_pair", "warning", "sound"),
     "contact.bound_by_condition": ("bound_by_condition", "note", "sound"),
     "contact.bound_by_body": ("bound_by_body", "note", "sound"),
     "contact.junctions": ("junctions", "warning", "sound"),
@@ -154,6 +155,12 @@ def main():
             expect(status == 0 and "contact.normals_away" not in found and "contact.mixed_orientation" not in found,
                    f"the deck that --write-deck wrote for {name} is sound: {status} {sorted(found)}")
         write_deck(abut, deck("normals_away"), work)
+        in_turn = os.path.join(work, "in_turn_0000.rad")
+        with open(deck("same_pair"), encoding="latin-1") as file, open(in_turn, "w", encoding="latin-1") as changed:
+            first, second = (f"{0:>20}{9e-4:>20}{start:>20}{stop:>20}\n" for start, stop in ((0, 5e-6), (5e-6, 0)))
+            changed.write(file.read().replace(f"{0:>20}{9e-4:>20}{0:>20}{0:>20}\n", first, 1).replace(f"{0:>20}{9e-4:>20}{0:>20}{0:>20}\n", second, 1))
+        found, status, document = check(in_turn)
+        expect(status == 0 and "contact.same_pair" not in found, f"interfaces that act in turn may share their surfaces: {status} {sorted(found)}")
 
         def no_room():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
