@@ -66,6 +66,16 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + (vb / sum) * ab + (vc / sum) * ac;
 }
 
+/// What the tree asks of facets, and of nodes.
+struct Shape::Items {
+  const Shape& shape;
+  [[nodiscard]] Vec3 normal(Index i) const { return shape.is_nodes() ? Vec3{} : shape.normal(i); }
+  template <class Take>
+  void corners(Index f, const Take& take) const {
+    for (int k = 0; k < shape.facet(f).corners(); ++k) take(shape.corner(f, k));
+  }
+};
+
 Shape::Shape(const InspectedSide& side, std::span<const Vec3> x) : side_(side), x_(x) {
   if (is_nodes()) {
     nodes_.assign(side.nodes.begin(), side.nodes.end());
@@ -77,7 +87,7 @@ Shape::Shape(const InspectedSide& side, std::span<const Vec3> x) : side_(side), 
   nodes_.shrink_to_fit();
   measure();
   if (!is_nodes()) connect();
-  tree_.build(box_);
+  tree_.build(box_, Items{*this});
 }
 
 void Shape::move(const InspectedSide& side, std::span<const Vec3> x) {
@@ -94,7 +104,7 @@ void Shape::move(const InspectedSide& side, std::span<const Vec3> x) {
     return;
   }
   if (!is_nodes()) find_outside();
-  tree_.refit(box_);
+  tree_.refit(box_, Items{*this});
 }
 
 void Shape::keep_connections() {
@@ -289,7 +299,7 @@ bool Shape::hides(const Vec3& a, const Vec3& b, Index except) const {
   query.include(a);
   query.include(b);
   const CoarseBounds around(query);
-  return tree_.any(query, [&](Index f) {
+  return tree_.any(a, b, [&](Index f) {
     if (f == except || !box_[at(f)].meets(around)) return false;
     return crosses(a, b - a, corner(f, 0), corner(f, 1), corner(f, 2)) ||
            (!facet(f).is_triangle() && crosses(a, b - a, corner(f, 0), corner(f, 2), corner(f, 3)));

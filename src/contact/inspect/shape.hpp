@@ -92,6 +92,7 @@ class Shape {
   Bounds bounds_;
   double mean_size_ = 0.0;
 
+  struct Items;
   void measure();
   void connect();
   void find_pieces(std::span<const Index> borders);

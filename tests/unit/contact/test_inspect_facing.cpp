@@ -252,6 +252,50 @@ TEST(Facing, orient_undoes_any_mixture) {
   EXPECT_FALSE(test::has_errors(inspect(p.input())));
 }
 
+/// Boxes and discs leave out no nearest facet and none that hides: as by brute force over facets one by one, from the middle of a closed
+/// surface (all are about equally far), beside and on it, also after it has moved.
+TEST(Facing, nearest_and_hiding_facets_are_those_of_brute_force) {
+  Pair p;
+  p.facets[0] = p.box({-0.9, -1.0, -1.1}, {1.8, 2.0, 2.2}, 6, false);
+  const auto blown_up = [&p](double turn) {
+    for (Vec3& x : p.x) {
+      x = x / norm(x);
+      x = Vec3{x.x * std::cos(turn) - x.y * std::sin(turn), x.x * std::sin(turn) + x.y * std::cos(turn), x.z};
+    }
+  };
+  blown_up(0.0);
+  Shape shape(p.input().side[0], p.x);
+  for (const double turn : {0.0, 0.4}) {
+    if (turn > 0.0) {
+      blown_up(turn);
+      shape.move(p.input().side[0], p.x);
+    }
+    std::vector<Shape> single;
+    for (const Facet& f : p.facets[0]) single.emplace_back(InspectedSide{std::span<const Facet>(&f, 1), {}, {}, {}}, p.x);
+    int hidden = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double size = std::pow(0.94, i % 50) * 1.6;
+      const Vec3 from = size * Vec3{std::sin(1.7 * i), std::cos(2.9 * i), std::sin(0.3 * i + 1.0)};
+      const Vec3 to = 0.7 * Vec3{std::cos(0.9 * i), std::sin(2.1 * i), std::cos(1.3 * i)};
+      NearPoint best;
+      bool hides = false;
+      for (std::size_t f = 0; f < single.size(); ++f) {
+        NearPoint found = single[f].nearest(from, 1e150);
+        found.item = static_cast<Index>(f);
+        if (found.squared < best.squared) best = found;
+        hides = hides || single[f].hides(from, to, no_index);
+      }
+      const NearPoint found = shape.nearest(from, 1e150);
+      ASSERT_EQ(found.item, best.item) << i;
+      ASSERT_EQ(found.squared, best.squared);
+      ASSERT_EQ(shape.hides(from, to, no_index), hides) << i;
+      hidden += hides ? 1 : 0;
+    }
+    EXPECT_GT(hidden, 20);
+    EXPECT_LT(hidden, 180);
+  }
+}
+
 /// A guess makes the search for the nearest facet short and changes nothing, also where several are equally near.
 TEST(Facing, guesses_change_no_answer) {
   Pair p;
