@@ -221,8 +221,7 @@ class ElementReader {
     const std::array<Vec3, 4> p{x(n[0]), x(n[1]), x(n[2]), x(n[3])};
     const double size = std::max(squared_norm(p[2] - p[0]), squared_norm(p[3] - p[1]));
     if (facet_area(p) > flat * size) return true;
-    r.error("model.zero_area", {11, 50}, "n1-n4",
-            fmt::format("element {} has no area: its nodes must be distinct and not on one line", id));
+    r.error("model.zero_area", {11, 50}, "n1-n4", fmt::format("element {} has no area: {}", id, why_no_area(p)));
     return false;
   }
 

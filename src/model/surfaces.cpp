@@ -150,8 +150,7 @@ std::optional<Segment> SetReader::read_segment(BlockReader& r, int first_column)
   const double size = std::max(squared_norm(x[2] - x[0]), squared_norm(x[3] - x[1]));
   constexpr double flat = 1e-12;
   if (!(facet_area(x) > flat * size)) {
-    r.error("model.zero_area", {first_column, first_column + 39}, "n1-n4",
-            "the segment has no area: its nodes must be distinct and not on one line");
+    r.error("model.zero_area", {first_column, first_column + 39}, "n1-n4", fmt::format("the segment has no area: {}", why_no_area(x)));
     return std::nullopt;
   }
   if (!node_elements_) node_elements_.emplace(m_);

@@ -108,6 +108,13 @@ double tetra_volume(const std::array<Vec3, 4>& x) { return -dot(cross(x[1] - x[0
 
 double facet_area(const std::array<Vec3, 4>& x) { return 0.5 * norm(cross(x[2] - x[0], x[3] - x[1])); }
 
+const char* why_no_area(const std::array<Vec3, 4>& x) {
+  const double size = std::max(squared_norm(x[2] - x[0]), squared_norm(x[3] - x[1]));
+  const bool has_corner = norm(cross(x[1] - x[0], x[2] - x[0])) > 1e-9 * size && norm(cross(x[2] - x[0], x[3] - x[0])) > 1e-9 * size;
+  return has_corner ? "the order of its nodes is crossed: list them one after the other around its border"
+                    : "its nodes must be distinct and not on one line";
+}
+
 Index solid_count(const Model& m) { return m.bricks.size() + m.tetras.size(); }
 
 std::span<const Index> solid_nodes(const Model& m, Index solid) {

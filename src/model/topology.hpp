@@ -19,6 +19,8 @@ namespace abut::model {
 [[nodiscard]] double tetra_volume(const std::array<Vec3, 4>& x);
 /// Area of a facet as half of |x13 x x24|; a triangle repeats its third corner.
 [[nodiscard]] double facet_area(const std::array<Vec3, 4>& x);
+/// What is wrong with a facet without area: "its nodes must be distinct and not on one line", or that their order is crossed.
+[[nodiscard]] const char* why_no_area(const std::array<Vec3, 4>& x);
 
 /// A face: up to four distinct nodes in order, outward; unused places hold no_index. Empty (nodes[0] == no_index): the face does not exist.
 using Face = std::array<Index, 4>;

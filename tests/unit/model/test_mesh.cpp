@@ -97,6 +97,17 @@ TEST(Mesh, BadElementsSayWhatWouldBeRight) {
       }));
 }
 
+TEST(Mesh, CrossedOrderOfNodesIsSaid) {
+  Reading r;
+  r.read(head() + cube() + "/SHELL/1\n" + ints({1, 1, 2, 4, 3}) + "/SURF/SEG/1\ns\n" + ints({1, 1, 2, 4, 3}) + ints({2, 1, 2, 1, 2}));
+  const Strings errors = r.errors();
+  ASSERT_EQ(errors.size(), 3u);
+  const std::string crossed = "has no area: the order of its nodes is crossed: list them one after the other around its border";
+  EXPECT_EQ(errors[0], "t_0000.rad:35: /SHELL/1 field 'n1-n4' (columns 11-50): element 1 " + crossed);
+  EXPECT_EQ(errors[1], "t_0000.rad:38: /SURF/SEG/1 field 'n1-n4' (columns 11-50): the segment " + crossed);
+  EXPECT_NE(errors[2].find("distinct and not on one line"), std::string::npos);
+}
+
 TEST(Mesh, BadNodesSayWhatWouldBeRight) {
   Reading r;
   r.read(std::string(begin_2022) + "/NODE\n" + node(1, "1.2.3", "0", "0") + node(1, "0", "0", "0") + node(0, "0", "0", "0") +
