@@ -54,6 +54,8 @@ class BoundaryConditions {
 
   /// Step 25: exact discrete work of both applications (negative: kinetic energy taken).
   double ledger_work(const state::State& state) { return meter_.settle(state); }
+  /// Before ledger_work: its part that jumps of the velocity are.
+  [[nodiscard]] double jump_work() const { return meter_.jump_work(); }
 
   void persist(state::Archive& a) {
     a.fixed(released_);

@@ -100,6 +100,10 @@ class RigidBodies {
   /// between cycles), plus the energy of impact of a body that a sensor switches on. Once per cycle.
   double ledger_work(const state::State& state);
 
+  /// Step 25, before ledger_work, of the external work: the impacts of bodies switched on or off in this cycle, with what the energies of
+  /// elements and contact lack of the work up to them (StopWork).
+  [[nodiscard]] double switch_work(const state::State& state) const;
+
   void persist(state::Archive& a);
 
   [[nodiscard]] std::span<const BodySums> results() const { return sums_; }  ///< per model rigid body
@@ -194,6 +198,7 @@ class RigidBodies {
     Vec3 euler_alpha;                          ///< angular acceleration of Euler's equations, this cycle
     double rotation_before = 0.0;              ///< rotational T* of the previous cycle plus its second halves, or 1/2 w.Jw when switched on
     double switch_work = 0.0;                  ///< kinetic energy gained (negative: lost) when the body was switched on or off
+    double switch_power = 0.0;                 ///< structure_power gained when it was switched on
   };
   void follow_sensors(state::State& state);
   void switch_on(std::size_t index, state::State& state, bool at_start);
@@ -216,6 +221,8 @@ class RigidBodies {
   /// Kinetic energy of the body's nodes as free nodes, or as a body, from the half-step velocities.
   [[nodiscard]] double free_energy(std::size_t index, const state::State& state) const;
   [[nodiscard]] double rigid_energy(std::size_t index, const state::State& state) const;
+  /// Power of elements and contact on the body's nodes.
+  [[nodiscard]] double structure_power(std::size_t index, const state::State& state) const;
 
   const model::Model* model_;
   bool conserving_;

@@ -66,6 +66,12 @@ double RigidBodies::ledger_correction(const state::State& state) const {
   return sum;
 }
 
+double RigidBodies::switch_work(const state::State& state) const {
+  double work = 0.0;
+  for (const Body& body : bodies_) work += body.switch_work + 0.5 * state.times.h_bar * body.switch_power;
+  return work;
+}
+
 double RigidBodies::ledger_work(const state::State& state) {
   // Translation of the main node is booked in full by others, with F replaced by the forces on each node; what is left to book:
   //   (F - f_M).dx_M - sum f_I.dx_I - sum m_I.dtheta_I                 [forces counted where they act]
@@ -75,7 +81,7 @@ double RigidBodies::ledger_work(const state::State& state) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     work += body.switch_work;
-    body.switch_work = 0.0;
+    body.switch_work = body.switch_power = 0.0;
     if (!body.on) continue;
     const model::RigidBody& card = model_->rigid_bodies[i];
     const std::size_t main = at(card.main);

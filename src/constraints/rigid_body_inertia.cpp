@@ -93,6 +93,7 @@ void RigidBodies::switch_on(std::size_t index, state::State& state, bool at_star
     body.relative = cross(state.w[main], state.x[main] - body.centre);
     body.centre_v = state.v[main] - body.relative;
   };
+  const double power_before = structure_power(index, state);
   if (at_start) {
     const Vec3 typed = state.x[main];
     compute_inertia(index, state, card.sensor == no_index ? card.icog : 3, card.sensor == no_index);
@@ -123,6 +124,7 @@ void RigidBodies::switch_on(std::size_t index, state::State& state, bool at_star
     state.v[at(node)] = state.v[main] + cross(state.w[main], state.x[at(node)] - state.x[main]);
     state.w[at(node)] = state.w[main];
   }
+  if (!at_start) body.switch_power = structure_power(index, state) - power_before;
   body.rotation_before = 0.5 * dot(state.w[main], times(body.inertia, state.w[main]));
 }
 
@@ -146,6 +148,16 @@ double RigidBodies::free_energy(std::size_t index, const state::State& state) co
   };
   double sum = energy(at(card.main));
   for (const Index node : card.nodes) sum += energy(at(node));
+  return sum;
+}
+
+double RigidBodies::structure_power(std::size_t index, const state::State& state) const {
+  const model::RigidBody& card = model_->rigid_bodies[index];
+  const auto power = [&](std::size_t i) {
+    return dot(state.f_contact[i] - state.f_internal[i], state.v[i]) - dot(state.m_internal[i], state.w[i]);
+  };
+  double sum = power(at(card.main));
+  for (const Index node : card.nodes) sum += power(at(node));
   return sum;
 }
 

@@ -56,6 +56,8 @@ class RigidWalls {
   [[nodiscard]] double work() const { return work_; }
   /// Step 25: exact discrete work, including the reaction on moving walls.
   double ledger_work(const state::State& state) { return meter_.settle(state); }
+  /// Before ledger_work: its part that jumps of the velocity are.
+  [[nodiscard]] double jump_work() const { return meter_.jump_work(); }
   /// Step 25, of the external work: what the energies of elements and contact lack of the work up to the stop (StopWork).
   [[nodiscard]] double stop_work(const state::State& state) const { return stops_.settle(state); }
 

@@ -75,6 +75,8 @@ class WorkMeter {
   /// A force added to state.f of `node` before accelerations exist (step 12).
   void add_force(Index node, const Vec3& force);
 
+  /// After the last after() of a cycle: the part of its work that changes of v and w are.
+  [[nodiscard]] double jump_work() const { return jump_; }
   /// Step 25: work booked for the time up to t^n; clears the cycle's contributions.
   double settle(const state::State& state);
   /// Between two cycles: what the next settle() still has to book.

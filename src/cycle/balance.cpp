@@ -106,10 +106,20 @@ void Cycle::close_balance() {
   state::Balance& b = balance_;
   const bool product_form = options_.profile.kinetic_energy == Profile::KineticEnergy::leapfrog;
   const KineticSums kinetic = ledger_.sum(state_, product_form, pool_);
+  const double jumps = boundary_.jump_work() + walls_.jump_work(), switched = bodies_.switch_work(state_);
   const double external = (loaded_ ? loads_.ledger_work(state_) : 0.0) + gravities_.ledger_work(state_) + boundary_.ledger_work(state_) +
                           imposed_.ledger_work(state_) + bodies_.hold_work(state_) + walls_.ledger_work(state_) + edited_work_;
   const bool discrete = options_.profile.external_work == Profile::ExternalWork::discrete;
-  b.extw += discrete ? external + (stops_ ? stops_->settle(state_) : walls_.stop_work(state_)) : booked_work_ + edited_work_;
+  if (!discrete) {
+    b.extw += booked_work_ + edited_work_;
+  } else if (state_.times.cycle == 0) {
+    // The kinetic energy of cycle 0 is that of v(0) after jumps, before the kick: the first halves of its works wait for the second ones.
+    b.extw += jumps;
+    waiting_work_ = external - jumps;
+  } else {
+    b.extw += external + waiting_work_ + switched + (stops_ ? stops_->settle(state_) : walls_.stop_work(state_));
+    waiting_work_ = 0.0;
+  }
   const double constraint_work = external + bodies_.ledger_work(state_);
   const double t_star = kinetic.leapfrog + bodies_.ledger_correction(state_);
   const double ledger = ledger_.close(t_star, constraint_work);

@@ -152,6 +152,7 @@ class Cycle {
   std::optional<constraints::StopWork> stops_;  // of all nodes, in a cycle that takes over changes
   double start_work_ = 0.0;                     // of gradual starts, a part of the external work
   double edited_work_ = 0.0;                    // energy that the caller's changes brought in this cycle
+  double waiting_work_ = 0.0;                   // of cycle 0, for the external work of the next one
   double booked_work_ = 0.0;                    // external work of this cycle as the reference program books it
   int beyond_limit_ = 0;                        // cycles in a row with an energy error beyond the limit
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;

@@ -91,8 +91,10 @@ void Cycle::persist(state::Archive& a) {
     ledger_.persist(a);
     persist_balance(a, balance_);
     persist_controller(a, controller_);
-    for (double* d : {&scaled_energy_, &removed_energy_, &booked_work_, &start_work_, &edited_work_, &worst_error_, &worst_contact_error_})
+    for (double* d : {&scaled_energy_, &removed_energy_, &booked_work_, &waiting_work_, &start_work_, &edited_work_, &worst_error_,
+                      &worst_contact_error_}) {
       a(*d);
+    }
     a(beyond_limit_);
     a.each(parts_, [&a](PartResult& p) {
       for (double* d : {&p.ie, &p.he, &p.sums.kinetic_energy, &p.sums.rotational_energy, &p.sums.mass}) a(*d);
