@@ -22,11 +22,24 @@ std::vector<Index> touched_nodes(const model::Model& model) {
   return nodes;
 }
 
-/// The solution of (1 + s A) x = b, A symmetric and without negative eigenvalues, given by its columns.
+constexpr int newton_count =
+    20;  ///< of passes for the velocity of a wall with friction; a few do unless nodes change between stick and slip
+constexpr int largest_count = 200;  ///< of passes with those by secants that then follow, which cannot circle
+
+/// The solution of (1 + s A) x = b, A given by its columns, without negative eigenvalues.
 Vec3 solve(double s, const std::array<Vec3, 3>& a, const Vec3& b) {
   const Vec3 c0 = Vec3{1, 0, 0} + s * a[0], c1 = Vec3{0, 1, 0} + s * a[1], c2 = Vec3{0, 0, 1} + s * a[2];
   const double det = dot(c0, cross(c1, c2));
   return Vec3{dot(b, cross(c1, c2)), dot(c0, cross(b, c2)), dot(c0, cross(c1, b))} / det;
+}
+
+/// Friction filter: weight of the new value.
+double filter_weight(const model::RigidWall& card, double h_bar) {
+  constexpr double turn = 2.0 * 3.14159265358979323846;
+  return card.filter_kind == 1   ? card.filter
+         : card.filter_kind == 2 ? turn / card.filter
+         : card.filter_kind == 3 ? turn * card.filter * h_bar
+                                 : 1.0;
 }
 
 }  // namespace
@@ -166,6 +179,49 @@ Vec3 RigidWalls::velocity_after_impact(const Wall& wall, const state::State& sta
   }
 }
 
+Vec3 RigidWalls::velocity_with_friction(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
+                                        const Plane& plane) const {
+  const Vec3 n = card.normal;
+  const double alpha = filter_weight(card, state.times.h_bar);
+  const auto along_plane = [&n](const Vec3& b) { return b - dot(b, n) * n; };
+  Vec3 velocity = plane.velocity;
+  for (int pass = 0; pass < largest_count; ++pass) {
+    Vec3 impulse{};                // sum J(V)
+    std::array<Vec3, 3> change{};  // -dJ/dV by columns
+    double fastest = 0.0;
+    for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
+      const Index node = wall.nodes[k];
+      const auto i = static_cast<std::size_t>(node);
+      if (!tested(node) || !reaches(state, node, plane.point, n)) continue;
+      const double mass = state.mass[i];
+      const Vec3 u = state.v[i] + state.times.h_bar * state.a[i] - velocity;
+      if (dot(u, n) > 0.0) continue;
+      Vec3 tangential = alpha * mass * along_plane(u);
+      if (card.filter_kind != 0) tangential += (1.0 - alpha) * wall.filtered[k];
+      const double limit = -card.friction * mass * dot(u, n), size = norm(tangential);
+      const bool slips = size > limit;
+      const double share = slips ? limit / size : 1.0;
+      const bool newton = slips && pass < newton_count;
+      const Vec3 slip = newton ? tangential / size : Vec3{};
+      impulse += mass * dot(u, n) * n + share * tangential;
+      for (int c = 0; c < 3; ++c) {
+        Vec3 e{};
+        e[c] = 1.0;
+        const Vec3 t = along_plane(e);
+        change[static_cast<std::size_t>(c)] +=
+            mass * n[c] * n + share * alpha * mass * (t - dot(t, slip) * slip) - card.friction * mass * n[c] * slip;
+      }
+      fastest = std::max(fastest, norm(u));
+    }
+    std::array<Vec3, 3> answer{};
+    for (std::size_t c = 0; c < 3; ++c) answer[c] = bodies_->response(state, plane.carrier, change[c]);
+    const Vec3 step = solve(1.0, answer, before + bodies_->response(state, plane.carrier, impulse) - velocity);
+    velocity += step;
+    if (norm(step) <= 1e-15 * (fastest + norm(velocity))) break;
+  }
+  return velocity;
+}
+
 void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   const model::RigidWall& card = model_->rigid_walls[index];
   Wall& wall = walls_[index];
@@ -187,12 +243,13 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
       wall_velocity = state.v[k] + hb * state.a[k];
     }
     wall_point = state.x[k] + h * wall_velocity;
-    if (yields) wall_velocity = velocity_after_impact(wall, state, card, wall_velocity, wall_point, carrier);
+    if (yields) {
+      const Vec3 before = wall_velocity;
+      wall_velocity = velocity_after_impact(wall, state, card, before, wall_point, carrier);
+      if (card.slide == 2) wall_velocity = velocity_with_friction(wall, state, card, before, plane);
+    }
   }
-  double alpha = 1.0;  // friction filter: weight of the new value
-  if (card.filter_kind == 1) alpha = card.filter;
-  if (card.filter_kind == 2) alpha = 2.0 * 3.14159265358979323846 / card.filter;
-  if (card.filter_kind == 3) alpha = 2.0 * 3.14159265358979323846 * card.filter * hb;
+  const double alpha = filter_weight(card, hb);
 
   Vec3 normal_impulse{}, tangential_impulse{};
   double impacted = 0.0;

@@ -26,6 +26,7 @@ struct WallSums {
 /// held nor moved by an imposed motion. With N the normal and A the response of the wall's node to an impulse on it, A p = velocity
 /// gained (P p / M of a node, P the projection on its free directions; with the turn r x p of a body, RigidBodies::response),
 ///   V_w = V_p + A N sum m (v* - V_p).N / (1 + N.AN sum m)  over the nodes in contact; tied: V_p + A (1 + A sum m)^-1 sum m (v* - V_p),
+/// with friction: V_p + A sum J(V_w), J of a node the impulse that a wall of that velocity takes from it, by Newton's iteration,
 /// and the carrier gets the impulse sum J. The wall's plane keeps its normal, so its nodes press on it as if at its own node: the
 /// couple of their offsets along the plane is the guide's. Reference profile: numerics.md 6.1.5; a rigid body overwrites what a wall
 /// does to its nodes.
@@ -94,6 +95,9 @@ class RigidWalls {
   [[nodiscard]] RigidBodies::Carrier carrier_of(Index node) const;
   [[nodiscard]] Vec3 velocity_after_impact(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
                                            const Vec3& point, const RigidBodies::Carrier& carrier) const;
+  /// The same with friction, from the one without: V = V_p + A sum J(V), each J by the law of its node at V.
+  [[nodiscard]] Vec3 velocity_with_friction(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
+                                            const Plane& plane) const;
   [[nodiscard]] bool of_body(Index node) const { return bodies_->body_of(node) != no_index || bodies_->main_of(node) != no_index; }
   /// As a node of its own.
   [[nodiscard]] bool tested(Index node) const { return !same_cycle_ || !of_body(node); }

@@ -190,6 +190,53 @@ TEST(RigidWall, PushedWallCarriesItsNodes) {
   EXPECT_NEAR(rig.ledger(), 0.0, 1e-11);
 }
 
+// A free wall takes up the friction of its nodes: what sticks ends with the common velocity, also on a light wall, what slips gets mu J_n
+// and goes on slipping the same way; momentum is conserved and the ledger closes.
+TEST(RigidWall, FrictionTakesTheWallAlong) {
+  for (const double wall_mass : {0.01, 0.1, 1.0, 10.0}) {
+    for (const double mass : {0.1, 1.0, 10.0}) {
+      auto m = above_a_wall({{0, 0, 0}, {0, 0, 0}}, 2, 0.5);
+      m.rigid_walls[0].node = 0;
+      Rig rig(m);
+      rig.s.mass = std::vector<double>{wall_mass, mass};
+      rig.s.v[1] = {1, 0, -10};
+      rig.start();
+      for (int n = 0; n < 10; ++n) {
+        rig.step(0.01);
+        ASSERT_NEAR(rig.ledger(), 0.0, 1e-12 * mass * 100.0);
+      }
+      for (const std::size_t i : {0u, 1u}) {
+        EXPECT_NEAR(rig.s.v[i].x, mass / (mass + wall_mass), 1e-13) << wall_mass << " " << mass << " " << i;
+        EXPECT_NEAR(rig.s.v[i].z, -10.0 * mass / (mass + wall_mass), 1e-12) << wall_mass << " " << mass << " " << i;
+      }
+    }
+  }
+  // Three nodes of 1 against a wall of 1 that goes to -3/4 of 2: each presses with J_n = 2 / 4, so friction takes at most mu / 2 of each.
+  auto m = above_a_wall({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 2, 0.4);
+  m.rigid_walls[0].node = 0;
+  Rig rig(m);
+  rig.s.v[1] = {5, 0, -2};
+  rig.s.v[2] = {0, 3, -2};
+  rig.s.v[3] = {0.2, 0.2, -2};
+  rig.start();
+  rig.step(0.01);
+  const Vec3 wall = rig.s.v[0];
+  Vec3 momentum = wall;
+  for (const std::size_t i : {1u, 2u, 3u}) {
+    momentum += rig.s.v[i];
+    EXPECT_NEAR(rig.s.v[i].z, -1.5, 1e-14);
+  }
+  EXPECT_LT(norm(momentum - Vec3{5.2, 3.2, -6}), 1e-14);
+  EXPECT_LT(norm(rig.s.v[3] - wall), 1e-14);
+  const Vec3 before[] = {{5, 0, -1.5}, {0, 3, -1.5}};
+  for (const std::size_t i : {1u, 2u}) {  // the loss is 0.2 against the slip that is left
+    const Vec3 slip = rig.s.v[i] - wall, loss = before[i - 1] - rig.s.v[i];
+    EXPECT_NEAR(norm(loss), 0.2, 1e-14);
+    EXPECT_NEAR(dot(loss, slip), 0.2 * norm(slip), 1e-13);
+  }
+  EXPECT_NEAR(rig.ledger(), 0.0, 1e-13);
+}
+
 /// Model of a rigid body of nodes 0 (main) to 3 with a wall on its node 3, hit by nodes 4 to 6.
 model::Model wall_on_a_body(int slide) {
   auto m = nodes_at({{0, 0, -1}, {1, 0, -1}, {-0.5, 0.8, -1.2}, {0.4, 0.6, -0.5}, {0, 0, 0.1}, {2, 0, 0.12}, {0, 1, 0.3}});
