@@ -19,7 +19,7 @@ std::vector<Index> moved_nodes(const model::Model& model) {
 
 }  // namespace
 
-ImposedMotions::ImposedMotions(const model::Model& model, const Curves& curves, const Axes& axes, const RigidBodies& bodies)
+ImposedMotions::ImposedMotions(const model::Model& model, const Curves& curves, const Axes& axes, RigidBodies& bodies)
     : model_(&model),
       curves_(&curves),
       axes_(&axes),
@@ -35,11 +35,44 @@ bool ImposedMotions::acts(const Dof& dof, const model::ImposedMotion& motion, do
   return t >= motion.t_start && t <= motion.t_stop && curves_->on(motion.sensor, t) && bodies_->body_of(dof.node) == no_index;
 }
 
-void ImposedMotions::apply(state::State& state) {
+double ImposedMotions::wanted_acceleration(const model::ImposedMotion& motion, const state::StepTimes& times, double v,
+                                           double reached) const {
   using Kind = model::ImposedMotion::Kind;
+  const double t = times.t, h = times.h_plus, hb = times.h_bar;
+  const auto curve = [&](double at) { return curves_->scaled(motion.function, motion.sensor, motion.scale_x, motion.scale_y, at); };
+  if (motion.kind == Kind::acceleration) return curve(t + h);
+  if (motion.kind == Kind::velocity) return (curve(t + 0.5 * h) - v) / hb;
+  const double way = motion.sensor != no_index ? curve(t + h) - curve(t) : curve(t + h) - reached;
+  return (way / h - v) / hb;
+}
+
+void ImposedMotions::turn_bodies(state::State& state, const BoundaryConditions& conditions) {
+  turns_.clear();
+  for (const Dof& dof : dofs_) {
+    const model::ImposedMotion& motion = model_->imposed_motions[static_cast<std::size_t>(dof.motion)];
+    if (motion.direction < 3 || !bodies_->turns(dof.node) || !acts(dof, motion, state.times.t)) continue;
+    auto turn = std::find_if(turns_.begin(), turns_.end(), [&](const Turn& t) { return t.node == dof.node; });
+    if (turn == turns_.end()) turn = turns_.insert(turn, {dof.node, conditions.held(dof.node, true), {}, {}});
+    const Vec3 axis = axes_->axis(motion.skew, motion.direction % 3);
+    const double v = dot(state.w[static_cast<std::size_t>(dof.node)], axis);
+    const double missing = wanted_acceleration(motion, state.times, v, dof.angle) - dot(turn->given, axis);
+    const int before = turn->held.count;
+    turn->held.add(axis);
+    if (turn->held.count == before) continue;  // held, or turned by another motion
+    const Vec3& added = turn->held.axis[static_cast<std::size_t>(before)];
+    turn->given += missing / dot(added, axis) * added;
+  }
+  for (Turn& turn : turns_) turn.moment = bodies_->turn(turn.node, state, turn.held, turn.given);
+}
+
+void ImposedMotions::apply(state::State& state, const BoundaryConditions& conditions) {
   const state::StepTimes& times = state.times;
   const double t = times.t, h = times.h_plus, hb = times.h_bar;
+  turn_bodies(state, conditions);
   meter_.before(state);
+  for (const Turn& turn : turns_) {
+    state.alpha[static_cast<std::size_t>(turn.node)] += bodies_->times_inverse_inertia(bodies_->main_of(turn.node), turn.moment);
+  }
   std::fill(reaction_.begin(), reaction_.end(), 0.0);
   for (Dof& dof : dofs_) {
     const auto m = static_cast<std::size_t>(dof.motion);
@@ -57,30 +90,25 @@ void ImposedMotions::apply(state::State& state) {
     const double free = dot(acceleration, axis);
     if (held && rotation) dof.angle += times.h_minus * v;
     if (dof.active) {
-      const auto curve = [&](double at) { return curves_->scaled(motion.function, motion.sensor, motion.scale_x, motion.scale_y, at); };
-      double imposed = 0.0;
-      if (motion.kind == Kind::acceleration) {
-        imposed = curve(t + h);
-      } else if (motion.kind == Kind::velocity) {
-        imposed = (curve(t + 0.5 * h) - v) / hb;
-      } else if (motion.sensor != no_index) {
-        imposed = ((curve(t + h) - curve(t)) / h - v) / hb;
-      } else {
-        const double reached = rotation ? dof.angle : dot(state.u[i], axis);
-        imposed = ((curve(t + h) - reached) / h - v) / hb;
-      }
+      const double imposed = wanted_acceleration(motion, times, v, rotation ? dof.angle : dot(state.u[i], axis));
       if (held) {
         dof.wanted = v + hb * imposed;
         continue;
       }
-      const double change = imposed - free;
-      acceleration += change * axis;
-      const Index body = rotation ? bodies_->main_of(dof.node) : no_index;
-      const double resistance = !rotation          ? state.mass[i]
-                                : body == no_index ? state.inertia[i]
-                                                   : dot(axis, bodies_->times_inertia(body, axis));
-      dof.power = 0.5 * resistance * change * (v + 0.5 * hb * imposed);
-      reaction_[m] += resistance * change;
+      double force = 0.0;
+      if (rotation && bodies_->turns(dof.node)) {
+        for (const Turn& turn : turns_) force += turn.node == dof.node ? dot(axis, turn.moment) : 0.0;
+      } else {
+        const double change = imposed - free;
+        acceleration += change * axis;
+        const Index body = rotation ? bodies_->main_of(dof.node) : no_index;
+        const double resistance = !rotation          ? state.mass[i]
+                                  : body == no_index ? state.inertia[i]
+                                                     : dot(axis, bodies_->times_inertia(body, axis));
+        force = resistance * change;
+      }
+      dof.power = 0.5 * force * (v + 0.5 * hb * imposed);
+      reaction_[m] += force;
     }
     // Rotation is not a nodal state: it is summed here, with the velocity that this step will have.
     if (rotation && !held) dof.angle += h * (v + hb * dot(acceleration, axis));

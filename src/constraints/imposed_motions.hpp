@@ -22,11 +22,11 @@ class RigidBodies;
 /// Rotational displacement: the rotation accumulated here since t = 0.
 class ImposedMotions {
  public:
-  ImposedMotions(const model::Model& model, const Curves& curves, const Axes& axes, const RigidBodies& bodies);
+  ImposedMotions(const model::Model& model, const Curves& curves, const Axes& axes, RigidBodies& bodies);
 
   /// Step 20. Secondary nodes of active rigid bodies are left alone; of main nodes beside the centre only the velocity wanted is found, for
   /// RigidBodies::hold().
-  void apply(state::State& state);
+  void apply(state::State& state, const BoundaryConditions& conditions);
 
   /// After apply(), once per cycle: (a - a_free)/2 m (v + h_bar a / 2) times h_- now, and times h_+ in the next cycle if the
   /// condition is still active then (numerics.md 1.6.4).
@@ -76,14 +76,25 @@ class ImposedMotions {
     double wanted = 0.0;     ///< velocity at n + 1/2; of this cycle, where RigidBodies::hold() moves the node
     bool active = false;
   };
+  /// Rotations of main nodes that are the centre of their body, together.
+  struct Turn {
+    Index node;
+    BoundaryConditions::Held held;
+    Vec3 given, moment;  ///< angular acceleration along the held directions; what that takes
+  };
+  void turn_bodies(state::State& state, const BoundaryConditions& conditions);
+  /// Acceleration along its axis that the motion wants of a component of velocity v. @param reached  angle or displacement so far
+  [[nodiscard]] double wanted_acceleration(const model::ImposedMotion& motion, const state::StepTimes& times, double v,
+                                           double reached) const;
   [[nodiscard]] bool acts(const Dof& dof, const model::ImposedMotion& motion, double t) const;
 
   const model::Model* model_;
   const Curves* curves_;
   const Axes* axes_;
-  const RigidBodies* bodies_;
+  RigidBodies* bodies_;
   std::vector<Dof> dofs_;
   std::vector<double> reaction_;
+  std::vector<Turn> turns_;  ///< of this cycle
   WorkMeter meter_;
 };
 

@@ -101,14 +101,15 @@ void RigidBodies::turn_axes(Inertia& inertia, const Vec3& angle) const {
 }
 
 Vec3 RigidBodies::angular_acceleration(const Body& body, const Vec3& torque, const Vec3& w, double h_bar,
-                                       const BoundaryConditions::Held& held) const {
+                                       const BoundaryConditions::Held& held, const Vec3& given) const {
   const Inertia& inertia = body.inertia;
-  Vec3 alpha = solve_free(inertia, torque - cross(w, times(inertia, w)), held);
+  const Vec3 rest = torque - times(inertia, given);
+  Vec3 alpha = given + solve_free(inertia, rest - cross(w, times(inertia, w)), held);
   if (!conserving_) return alpha;
   // Contraction with factor of order h |w|: a handful of passes; the cap guards steps that scatter() will refuse anyway.
   for (int pass = 0; pass < 40; ++pass) {
     const Vec3 middle = w + 0.5 * h_bar * alpha;
-    const Vec3 next = solve_free(inertia, torque - cross(middle, times(inertia, middle)), held);
+    const Vec3 next = given + solve_free(inertia, rest - cross(middle, times(inertia, middle)), held);
     const double change = squared_norm(next - alpha);
     alpha = next;
     if (change <= 1e-34 * squared_norm(alpha)) break;
@@ -189,6 +190,17 @@ void RigidBodies::accelerate(state::State& state, const BoundaryConditions& cond
     state.alpha[main] = body.euler_alpha;
     state.m[main] = state.inertia[main] * body.euler_alpha;
   }
+}
+
+Vec3 RigidBodies::turn(Index node, state::State& state, const BoundaryConditions::Held& held, const Vec3& given) {
+  const auto index = at(main_of(node));
+  Body& body = bodies_[index];
+  const Vec3 w = state.w[at(node)], free_torque = torque(index, state);
+  const Vec3 alpha = angular_acceleration(body, free_torque, w, state.times.h_bar, held, given);
+  const Vec3 middle = w + 0.5 * state.times.h_bar * alpha;
+  const Vec3 without = free_torque - cross(middle, times(body.inertia, middle));
+  state.alpha[at(node)] = body.euler_alpha = times_inverse(body.inertia, without);
+  return times(body.inertia, alpha) - without;
 }
 
 Vec3 RigidBodies::response(const state::State& state, const Carrier& carrier, const Vec3& impulse) const {

@@ -74,6 +74,14 @@ class RigidBodies {
   /// @return kinetic energy that this brings at the main node's angular velocity
   double scale_inertia(Index body, double factor, state::State& state);
 
+  /// Step 20, standard profile: true for the main node of an active body that is the centre of its mass; turn() imposes its rotations.
+  [[nodiscard]] bool turns(Index node) const { return conserving_ && main_of(node) != no_index && !holds(node); }
+  /// Euler's equations with the angular acceleration `given` along the held directions. Leaves the main node with what it has without the
+  /// moment that this takes. @return that moment
+  Vec3 turn(Index node, state::State& state, const BoundaryConditions::Held& held, const Vec3& given);
+  /// J^-1 b
+  [[nodiscard]] Vec3 times_inverse_inertia(Index body, const Vec3& b) const;
+
   /// Step 20, after the conditions and motions of other nodes: bodies whose main node is beside the centre get the forces and moments at
   /// that node which give it the velocity n + 1/2 of its conditions (none) and imposed motions, on the chord of the body's rotation. Its
   /// place does not drift. scatter() does so again, for what walls have changed.
@@ -216,8 +224,9 @@ class RigidBodies {
   /// The rows' values: adds to held_force and held_moment, and to the main node's accelerations.
   void satisfy(std::size_t index, state::State& state);
   [[nodiscard]] Vec3 torque(std::size_t index, const state::State& state) const;
+  /// @param given  its part along the held directions
   [[nodiscard]] Vec3 angular_acceleration(const Body& body, const Vec3& torque, const Vec3& w, double h_bar,
-                                          const BoundaryConditions::Held& held) const;
+                                          const BoundaryConditions::Held& held, const Vec3& given = {}) const;
   /// Kinetic energy of the body's nodes as free nodes, or as a body, from the half-step velocities.
   [[nodiscard]] double free_energy(std::size_t index, const state::State& state) const;
   [[nodiscard]] double rigid_energy(std::size_t index, const state::State& state) const;

@@ -184,4 +184,6 @@ double RigidBodies::scale_inertia(Index index, double factor, state::State& stat
 
 Vec3 RigidBodies::times_inertia(Index body, const Vec3& b) const { return times(bodies_[at(body)].inertia, b); }
 
+Vec3 RigidBodies::times_inverse_inertia(Index body, const Vec3& b) const { return times_inverse(bodies_[at(body)].inertia, b); }
+
 }  // namespace abut::constraints

@@ -112,7 +112,7 @@ struct Rig {
     gravities.apply(s);
     external += gravities.book_work(s);
     conditions.apply(s);
-    motions.apply(s);
+    motions.apply(s, conditions);
     bodies.hold(s, conditions, motions);
     external += motions.book_work(s);
     walls.apply(s);

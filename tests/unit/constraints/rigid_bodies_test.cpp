@@ -330,6 +330,37 @@ TEST(RigidBody, ImposedRotationOfTheMainNode) {
   }
 }
 
+// A free body whose rotation about z is imposed gets no torque about x and y: these components of its angular momentum stay, to second
+// order in the step, and the work of the motion is the rotational energy.
+TEST(RigidBody, ImposedRotationLeavesTheOtherAxesFree) {
+  const auto run = [](double h) {
+    auto m = body_of_points();
+    const Index f = add_function(m, {0.0, 1.0}, {0.0, 2.0});
+    m.imposed_motions.push_back({.id = 1, .function = f, .direction = 5, .nodes = {0}});
+    Rig rig(m);
+    set_masses(rig.s);
+    rig.s.w[0] = {0.3, -0.2, 0};
+    rig.start();
+    const Vec3 before = angular_momentum(rig);
+    const double energy = 0.5 * dot(rig.s.w[0], before);
+    const int steps = static_cast<int>(std::lround(1.0 / h));
+    for (int n = 0; n < steps; ++n) rig.step(h);
+    EXPECT_NEAR(rig.s.w[0].z, 2.0 * (rig.s.times.t - 0.5 * h), 1e-12);
+    EXPECT_NEAR(rig.ledger(), 0.0, 1e-11);
+    const Vec3 after = rotated(angular_momentum(rig), 0.5 * h * rig.s.w[0]);  // the axes at the time of w
+    const Vec3 change = after - before;
+    const double gained = 0.5 * dot(rig.s.w[0], after) - energy;
+    return std::pair{std::hypot(change.x, change.y) / norm(before), std::fabs(gained / rig.work_motions - 1.0)};
+  };
+  const auto [coarse, work_coarse] = run(0.01);
+  const auto [fine, work_fine] = run(0.005);
+  std::printf("[found] angular momentum about the free axes off by %.2e and %.2e at half the step, work by %.2e and %.2e\n", coarse, fine,
+              work_coarse, work_fine);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_LT(fine, 0.35 * coarse);
+  EXPECT_LT(work_fine, 0.01);
+}
+
 // Rotational conditions of the main node reduce Euler's equations: a body that may turn about z only needs e_z.J e_z.
 TEST(RigidBody, HeldRotationsReduceTheSystem) {
   auto m = body_of_points();
