@@ -15,10 +15,11 @@ namespace {
 
 class MotionChecks {
  public:
-  explicit MotionChecks(Context& c) : c_(c), m_(*c.model), d_(*c.diagnostics), body_(static_cast<std::size_t>(m_.node_count()), nullptr) {
+  explicit MotionChecks(Context& c)
+      : c_(c), m_(*c.model), d_(*c.diagnostics), body_(static_cast<std::size_t>(m_.node_count()), nullptr), later_(body_) {
     for (const RigidBody& b : m_.rigid_bodies) {
-      if (b.sensor != no_index || !b.active || b.main == no_index) continue;
-      for (const Index n : b.nodes) body_[static_cast<std::size_t>(n)] = &b;
+      if (!b.active || b.main == no_index) continue;
+      for (const Index n : b.nodes) (start_of(b) <= 0.0 ? body_ : later_)[static_cast<std::size_t>(n)] = &b;
     }
     for (const BoundaryCondition& b : m_.boundary_conditions) {
       for (const Index n : b.nodes) {
@@ -52,6 +53,9 @@ class MotionChecks {
 
   const RigidBody* body_of(Index node) const { return body_[static_cast<std::size_t>(node)]; }
 
+  /// When its sensor switches the body on.
+  double start_of(const RigidBody& b) const { return b.sensor == no_index ? 0.0 : m_.sensors[static_cast<std::size_t>(b.sensor)].t_on; }
+
   static std::string_view name_of(ImposedMotion::Kind kind) {
     return kind == ImposedMotion::Kind::velocity ? "IMPVEL" : kind == ImposedMotion::Kind::displacement ? "IMPDISP" : "IMPACC";
   }
@@ -59,10 +63,11 @@ class MotionChecks {
   void imposed_motions() {
     std::map<std::tuple<Index, int, Index>, const ImposedMotion*> imposed;  // node, direction, skew
     for (const ImposedMotion& motion : m_.imposed_motions) {
-      std::vector<Index> following, held, twice;
+      std::vector<Index> following, later, held, twice;
       const ImposedMotion* other = nullptr;
       for (const Index n : motion.nodes) {
         if (body_of(n) != nullptr) following.push_back(n);
+        if (const RigidBody* b = later_[static_cast<std::size_t>(n)]; b != nullptr && start_of(*b) < motion.t_stop) later.push_back(n);
         if (body_of(n) == nullptr && holds(n, motion)) held.push_back(n);
         const auto [found, inserted] = imposed.emplace(std::tuple{n, motion.direction, motion.skew}, &motion);
         if (inserted) continue;
@@ -72,13 +77,16 @@ class MotionChecks {
         twice.push_back(n);
       }
       const Place place = place_of(c_, name_of(motion.kind), motion.id);
-      if (!following.empty()) {
-        const bool one = following.size() == 1;
+      const auto warn_of = [&](const std::vector<Index>& nodes, std::string_view when, std::string_view too) {
+        if (nodes.empty()) return;
+        const bool one = nodes.size() == 1;
         d_.warning("model.motion_of_rigid_body", place,
-                   fmt::format("{} of a rigid body and {} it: {}; impose the motion on the main node",
-                               one ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", following.size()),
-                               one ? "follows" : "follow", list(ids_of(following))));
-      }
+                   fmt::format("{} of a rigid body and {} it{}: {}; impose the motion on the main node{}",
+                               one ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", nodes.size()),
+                               one ? "follows" : "follow", when, list(ids_of(nodes)), too));
+      };
+      warn_of(following, "", "");
+      warn_of(later, " once a sensor switches it on", " too");
       if (!held.empty()) {
         d_.warning(
             "model.motion_of_held_node", place,
@@ -131,6 +139,7 @@ class MotionChecks {
         return true;
       };
       following("BCS", b.id, b.nodes, held_too, "hold {}");
+      following("BCS", b.id, b.nodes, held_too, "hold {} too", true);
     }
   }
 
@@ -141,7 +150,9 @@ class MotionChecks {
           return other.direction == g.direction && other.skew == g.skew && std::binary_search(other.nodes.begin(), other.nodes.end(), main);
         });
       };
-      following("GRAV", g.id, g.nodes, acts, "take {} into the group, where the weight of the whole body acts");
+      constexpr const char* advice = "take {} into the group, where the weight of the whole body acts";
+      following("GRAV", g.id, g.nodes, acts, advice);
+      following("GRAV", g.id, g.nodes, acts, advice, true);
     }
   }
 
@@ -183,13 +194,14 @@ class MotionChecks {
   }
 
   /// Warns of nodes that follow a rigid body whose main node has no such condition: there it does nothing.
+  /// @param later  of the bodies that a sensor switches on after the start, not of those that are there from the start
   template <class MainHasIt>
   void following(std::string_view word, Id id, const std::vector<Index>& nodes, const MainHasIt& main_has_it,
-                 fmt::format_string<std::string> advice) {
+                 fmt::format_string<std::string> advice, bool later = false) {
     std::map<const RigidBody*, bool> lacking;
     std::vector<Index> lost;
     for (const Index n : nodes) {
-      const RigidBody* body = body_of(n);
+      const RigidBody* body = (later ? later_ : body_)[static_cast<std::size_t>(n)];
       if (body == nullptr) continue;
       const auto [found, inserted] = lacking.emplace(body, false);
       if (inserted) found->second = !main_has_it(body->main);
@@ -205,17 +217,19 @@ class MotionChecks {
       mains.push_back(m_.node_id[static_cast<std::size_t>(b.main)]);
     }
     const bool one = bodies.size() == 1;
-    d_.warning("model.condition_of_rigid_body", place_of(c_, word, id),
-               fmt::format("{} of rigid {} {} and {} {}, so this does nothing there: {}; {}",
-                           lost.size() == 1 ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", lost.size()),
-                           one ? "body" : "bodies", list(bodies), lost.size() == 1 ? "follows" : "follow", one ? "it" : "them",
-                           list(ids_of(lost)), fmt::format(advice, (one ? "its main node " : "their main nodes ") + list(mains))));
+    d_.warning(
+        "model.condition_of_rigid_body", place_of(c_, word, id),
+        fmt::format("{} of rigid {} {} and {} {}{}, so this does nothing there{}: {}; {}",
+                    lost.size() == 1 ? "1 node is a secondary node" : fmt::format("{} nodes are secondary nodes", lost.size()),
+                    one ? "body" : "bodies", list(bodies), lost.size() == 1 ? "follows" : "follow", one ? "it" : "them",
+                    later ? one ? " once its sensor switches it on" : " once their sensors switch them on" : "", later ? " any more" : "",
+                    list(ids_of(lost)), fmt::format(advice, (one ? "its main node " : "their main nodes ") + list(mains))));
   }
 
   Context& c_;
   const Model& m_;
   Diagnostics& d_;
-  std::vector<const RigidBody*> body_;  ///< of secondary nodes that follow one from the start
+  std::vector<const RigidBody*> body_, later_;  ///< of secondary nodes: the one that they follow from the start; once a sensor says so
   std::map<Index, Held> held_;
 };
 

@@ -95,6 +95,20 @@ std::vector<BrokenDeck> broken_conditions() {
     {"boundary condition of a rigid body's nodes and of its main node", Changed::starter, "/BCS/1", 2,
      "   110 000         0         3\n/BCS/2\nmain\n   111 000         0         5",
      {}},
+    {"boundary condition of the nodes of a rigid body that a sensor switches on", Changed::starter, "/BCS/1", 2,
+     "   110 000         0         1\n/GRNOD/NODE/8\nlow\n         1         2\n"
+     "/RBODY/2\nlow\n        31         1         0         0                   0         8         1",
+     {"deck_0000.rad:119: warning: /BCS/1: 2 nodes are secondary nodes of rigid body 2 and follow it once its sensor switches it on, so this does nothing there any more: 1, 2; hold its main node 31 too"}},
+    {"weight and motion of the nodes of a rigid body that a sensor switches on", Changed::starter, "/IMPVEL/1", 0,
+     "/GRNOD/NODE/8\nlow\n         1         2\n/GRNOD/NODE/9\nlow\n         1\n"
+     "/RBODY/2\nlow\n        31         1         0         0                   0         8         1\n\n\n"
+     "/GRAV/2\nmore\n         1         X         0         0         9                             0            -9.81E-3\n"
+     "/IMPVEL/2\nx\n         1         X         0         0         9         0         0\n                   1                   1                   0                   0\n"
+     "/IMPVEL/1",
+     {"deck_0000.rad:139: warning: /IMPVEL/2: 1 node is a secondary node of a rigid body and follows it once a sensor switches it on: 1; impose the motion on the main node too",
+      "deck_0000.rad:139: warning: /IMPVEL/2: a /BCS holds 1 node in this direction and the motion does nothing there: 1; take the direction out of the /BCS",
+      "deck_0000.rad:119: warning: /BCS/1: 2 nodes are secondary nodes of rigid body 2 and follow it once its sensor switches it on, so this does nothing there any more: 1, 2; hold its main node 31 too",
+      "deck_0000.rad:136: warning: /GRAV/2: 1 node is a secondary node of rigid body 2 and follows it once its sensor switches it on, so this does nothing there any more: 1; take its main node 31 into the group, where the weight of the whole body acts"}},
     {"weight of a rigid body's nodes without its main node", Changed::starter, "/GRAV/1", 2,
      "         1         Z         0         0         3                             0            -9.81E-3",
      {"deck_0000.rad:135: warning: /GRAV/1: 4 nodes are secondary nodes of rigid body 1 and follow it, so this does nothing there: 13, 14, 15, 16; take its main node 30 into the group, where the weight of the whole body acts"}},
