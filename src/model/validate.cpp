@@ -17,7 +17,11 @@ namespace {
 
 class Validator {
  public:
-  explicit Validator(Context& c) : m_(*c.model), d_(*c.diagnostics), c_(c), mass_(nodal_masses(m_)) {}
+  explicit Validator(Context& c) : m_(*c.model), d_(*c.diagnostics), c_(c), mass_(nodal_masses(m_)) {
+    for (const RigidWall& w : m_.rigid_walls) {
+      if (w.node != no_index) mass_[static_cast<std::size_t>(w.node)] += w.mass;
+    }
+  }
 
   void run() {
     // What a faulty mesh or set leaves behind (parts without elements, empty surfaces) is not a fault of its own.
