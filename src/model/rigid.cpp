@@ -20,6 +20,30 @@ Vec3 read_reals(BlockReader& r, std::array<std::string_view, 3> names, Dimension
   return {r.real({1, 20}, names[0], d), r.real({21, 40}, names[1], d), r.real({41, 60}, names[2], d)};
 }
 
+/// Products of inertia, on the card at hand, that go with these moments: no principal moment of a body is negative.
+void check_products(BlockReader& r, const Vec3& j, const Vec3& off) {
+  if (j.x < 0.0 || j.y < 0.0 || j.z < 0.0) return;
+  constexpr double rounding = 1e-4;  // of typed digits
+  constexpr std::array<std::string_view, 3> moments{"Jxx", "Jyy", "Jzz"}, products{"Jxy", "Jyz", "Jxz"};
+  const double size = rounding * (j.x + j.y + j.z);
+  for (int k = 0; k < 3; ++k) {  // Jxy with Jxx and Jyy, ...
+    const int a = k == 2 ? 0 : k, b = k == 2 ? 2 : k + 1;
+    if (off[k] * off[k] <= (j[a] + size) * (j[b] + size)) continue;
+    const auto name = [](const auto& names, int i) { return names[static_cast<std::size_t>(i)]; };
+    r.error("model.out_of_range", {20 * k + 1, 20 * k + 20}, name(products, k),
+            fmt::format("{0}^2 = {1:g} is larger than {2} {3} = {4:g}, which no body has: a principal moment of inertia would be negative; "
+                        "give the moments {2} and {3} of the same tensor",
+                        name(products, k), off[k] * off[k], name(moments, a), name(moments, b), j[a] * j[b]));
+    return;
+  }
+  const Vec3 t = j + Vec3{size, size, size};
+  const double det = t.x * (t.y * t.z - off.y * off.y) - off.x * (off.x * t.z - off.y * off.z) + off.z * (off.x * off.y - t.y * off.z);
+  if (det < 0.0) {
+    r.error("model.out_of_range", {1, 60}, "Jxy, Jyz, Jxz",
+            "a principal moment of inertia of this tensor is negative, which no body has; check the products of inertia and their signs");
+  }
+}
+
 }  // namespace
 
 void read_rigid_body(Context& c, const deck::Block& block) {
@@ -53,6 +77,7 @@ void read_rigid_body(Context& c, const deck::Block& block) {
   }
   r.next_card();
   b.j_off = read_reals(r, {"Jxy", "Jyz", "Jxz"}, dim::inertia);
+  check_products(r, b.j_diagonal, b.j_off);
   if (!old_layout(c) && r.next_card() && r.integer({21, 30}, "Ifail") != 0) {
     r.error("model.unsupported", {21, 30}, "Ifail", "failure of a rigid body's links is not supported; write 0");
   }
