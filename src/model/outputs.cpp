@@ -56,6 +56,9 @@ void read_section(Context& c, const deck::Block& block) {
   const Id interfaces = r.integer({71, 80}, "Niter");
   s.iframe = static_cast<int>(r.integer({91, 100}, "Iframe"));
   if (interfaces > 0) {
+    r.warning(
+        "model.left_out", {71, 80}, "Niter",
+        fmt::format("forces of interfaces do not count in those of section {}; add the force of each by /TH/INTER, or write 0", s.id));
     for (const Id id : r.id_list("inter_ID")) {
       const Index i = r.resolve(c.tables.interfaces, id, "/INTER", {1, 100}, "inter_ID");
       if (i != no_index) s.interfaces.push_back(i);

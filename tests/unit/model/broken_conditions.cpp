@@ -142,6 +142,10 @@ std::vector<BrokenDeck> broken_conditions() {
     {"load on a node without mass", Changed::starter, "/RBODY/1", 2,
      "         1         0         0         0                   0         3         0         0         0",
      {"deck_0000.rad:129: /CLOAD/1: 1 node is loaded but has no mass: 30; load nodes of elements with mass or of a rigid body, or give mass by /ADMAS"}},
+    {"load on the node of a moving wall that has its mass from the wall's card", Changed::starter, "/CLOAD/1", 2,
+     "         1         Z         1         0         6                   0                   3\n"
+     "/RWALL/PLANE/2\nram\n        31         0         1         0\n                   0                   0\n                 0.5                   0                   0                   0\n                   0                   0                   9",
+     {}},
     {"moment on the nodes of a brick", Changed::starter, "/CLOAD/1", 2,
      "         1        XX         1         0         1         0                   0                   3",
      {"deck_0000.rad:129: warning: /CLOAD/1: 8 nodes are of no shell and no rigid body and cannot turn, so this does nothing there: 1, 2, 3, 4, 5, 6, 7, 8; use forces or motions along X, Y, Z, or hold the nodes by a rigid body"}},
@@ -151,10 +155,6 @@ std::vector<BrokenDeck> broken_conditions() {
     {"rotation of bricks, some of their nodes in a rigid body", Changed::starter, "/INIVEL/TRA/1", 0,
      "/INIVEL/ROT/1",
      {"deck_0000.rad:122: warning: /INIVEL/ROT/1: 4 nodes are of no shell and no rigid body and cannot turn, so this does nothing there: 9, 10, 11, 12; /INIVEL/AXIS gives a solid that spins its velocities"}},
-    {"load on the node of a moving wall that has its mass from the wall's card", Changed::starter, "/CLOAD/1", 2,
-     "         1         Z         1         0         6                   0                   3\n"
-     "/RWALL/PLANE/2\nram\n        31         0         1         0\n                   0                   0\n                 0.5                   0                   0                   0\n                   0                   0                   9",
-     {}},
     {"imposed rotation of the nodes of a brick", Changed::starter, "/IMPVEL/1", 2,
      "         1        XX         0         1         1         0         0",
      {"deck_0000.rad:125: warning: /IMPVEL/1: a /BCS holds 8 nodes in this direction and the motion does nothing there: 1, 2, 3, 4, 5, 6, 7, 8; take the direction out of the /BCS",

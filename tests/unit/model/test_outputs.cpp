@@ -82,7 +82,9 @@ TEST(Outputs, SectionTakesGroupsFrameAndInterfaces) {
                                            "\n/SECT/4\ncut\n" + integers({"9", "10", "12", "3", "0", "0"}) + reals({"0", "0"}) + "\n\n" +
                                            integers({"9", "", "8", "0", "0", "0", "0", "2", "", "11"}) + "\n" + integers({"1", "3"}) +
                                            "\n/TH/SECTIO/16\nforces\nDEF\n" + integers({"4"}) + "\n/TH/PART/2"));
-  ASSERT_EQ(b.messages(), std::vector<std::string>{});
+  ASSERT_EQ(b.messages(), std::vector<std::string>{
+                              "deck_0000.rad:186: warning: /SECT/4 field 'Niter' (columns 71-80): forces of interfaces do not count in "
+                              "those of section 4; add the force of each by /TH/INTER, or write 0"});
   const Section& s = b.model.sections.at(0);
   EXPECT_EQ(s.nodes.size(), 4u);
   EXPECT_EQ(s.shells, std::vector<Index>{0});
