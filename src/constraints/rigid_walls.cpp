@@ -68,7 +68,8 @@ RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies, con
     }
     if (card.filter_kind != 0) walls_[i].filtered.resize(walls_[i].nodes.size());
     walls_[i].pressing.reserve(walls_[i].nodes.size());
-    if (!model.rigid_bodies.empty()) points_.reserve(std::max(points_.capacity(), walls_[i].nodes.size()));
+    if (!model.rigid_bodies.empty() || !model.boundary_conditions.empty())
+      points_.reserve(std::max(points_.capacity(), walls_[i].nodes.size()));
   }
 }
 
@@ -134,6 +135,15 @@ bool RigidWalls::reaches(const state::State& state, Index node, const Vec3& poin
   return dot(state.x[i] + state.times.h_plus * predicted - point, normal) <= 0.0;
 }
 
+bool RigidWalls::is_point(Index node, const Vec3& normal) const {
+  if (of_body(node)) return true;
+  const BoundaryConditions::Held held = conditions_->held(node, false);
+  if (held.count == 0 || held.count == 3) return false;
+  constexpr double aligned = 1e-12;
+  const double free = dot(normal, held.free_part(normal));
+  return free > aligned && free < 1.0 - aligned;
+}
+
 RigidBodies::Carrier RigidWalls::carrier_of(Index node) const {
   RigidBodies::Carrier carrier;
   carrier.point = node;
@@ -164,7 +174,7 @@ Vec3 RigidWalls::velocity_after_impact(const Wall& wall, const state::State& sta
     Vec3 momentum{};
     Index pressing = 0;
     for (const Index node : wall.nodes) {
-      if (!tested(node) || !reaches(state, node, point, n)) continue;
+      if (!reaches(state, node, point, n) || !tested(node, n)) continue;
       const auto i = static_cast<std::size_t>(node);
       const Vec3 predicted = state.v[i] + state.times.h_bar * state.a[i];
       if (dot(predicted - velocity, n) > 0.0) continue;
@@ -192,7 +202,7 @@ Vec3 RigidWalls::velocity_with_friction(const Wall& wall, const state::State& st
     for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
       const Index node = wall.nodes[k];
       const auto i = static_cast<std::size_t>(node);
-      if (!tested(node) || !reaches(state, node, plane.point, n)) continue;
+      if (!reaches(state, node, plane.point, n) || !tested(node, n)) continue;
       const double mass = state.mass[i];
       const Vec3 u = state.v[i] + state.times.h_bar * state.a[i] - velocity;
       if (dot(u, n) > 0.0) continue;
@@ -257,7 +267,7 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
   for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(wall.nodes[k]);
     const Vec3 predicted = state.v[i] + hb * state.a[i];
-    if (!tested(wall.nodes[k]) || !reaches(state, wall.nodes[k], wall_point, n)) {
+    if (!reaches(state, wall.nodes[k], wall_point, n) || !tested(wall.nodes[k], n)) {
       if (card.filter_kind != 0) wall.filtered[k] = Vec3{};
       continue;
     }

@@ -36,7 +36,8 @@ struct WallSums {
 ///   0 <= p_i.N  _|_  (V_i - V_w).N >= 0,   |p_i,t| <= mu p_i.N, against the slip where it slips     [Moreau 1988], [Jean 1999]
 /// (mu = 0 without friction; without bound when tied), by projected Gauss-Seidel over the points in the order of the wall's nodes,
 /// until no sweep changes a velocity by more than 1e-13 of the approach. The body gets p_i and its moment by RigidBodies::push, a moving
-/// wall the opposite impulse, after the free nodes. Friction of these points is not filtered.
+/// wall the opposite impulse, after the free nodes. Friction of these points is not filtered. A free node whose conditions hold it
+/// in a direction oblique to the wall is such a point, too.
 class RigidWalls {
  public:
   RigidWalls(const model::Model& model, const RigidBodies& bodies, const BoundaryConditions& conditions, const ImposedMotions& motions,
@@ -99,8 +100,11 @@ class RigidWalls {
   [[nodiscard]] Vec3 velocity_with_friction(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
                                             const Plane& plane) const;
   [[nodiscard]] bool of_body(Index node) const { return bodies_->body_of(node) != no_index || bodies_->main_of(node) != no_index; }
+  /// Stopped along with the points of bodies: of a body, or held in a direction oblique to the wall, so that the impulse of the wall and of
+  /// what holds it belong together.
+  [[nodiscard]] bool is_point(Index node, const Vec3& normal) const;
   /// As a node of its own.
-  [[nodiscard]] bool tested(Index node) const { return !same_cycle_ || !of_body(node); }
+  [[nodiscard]] bool tested(Index node, const Vec3& normal) const { return !same_cycle_ || !is_point(node, normal); }
   [[nodiscard]] bool reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const;
 
   const model::Model* model_;

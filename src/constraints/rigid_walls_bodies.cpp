@@ -1,4 +1,4 @@
-// Impact of rigid bodies on a wall: plastic, at all points that would cross (rigid_walls.hpp).
+// Impact of rigid bodies, and of nodes that are held oblique to it, on a wall: plastic, at all points that would cross (rigid_walls.hpp).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -69,9 +69,9 @@ void RigidWalls::stop_bodies(std::size_t index, Plane& plane, state::State& stat
   points_.clear();
   double fastest = 0.0;
   for (const Index node : wall.nodes) {
-    if (!of_body(node)) continue;
+    if (!is_point(node, card.normal)) continue;
     const RigidBodies::Carrier carrier = carrier_of(node);
-    if (card.node != no_index && carrier.body == plane.carrier.body) continue;  // the wall moves with this body
+    if (card.node != no_index && carrier.body != no_index && carrier.body == plane.carrier.body) continue;  // the wall moves with this body
     points_.push_back({carrier, {}});
     fastest = std::max(fastest, norm(bodies_->next_velocity(state, carrier) - plane.velocity));
   }

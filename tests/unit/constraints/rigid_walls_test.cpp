@@ -237,6 +237,37 @@ TEST(RigidWall, FrictionTakesTheWallAlong) {
   EXPECT_NEAR(rig.ledger(), 0.0, 1e-13);
 }
 
+// Held along (1, 0, 1) a node slides down along (1, 0, -1) and comes to rest on the wall, where the impulse of the wall and of the
+// condition together stop it; held along z above a slope it stays where the slope stops it.
+TEST(RigidWall, StopsANodeHeldObliquely) {
+  const double s = std::sqrt(0.5);
+  for (const bool skew : {true, false}) {
+    for (const int slide : {0, 2}) {
+      auto m = above_a_wall({{0, 0, 0.1}}, slide, 0.3);
+      if (skew) {
+        m.skews.push_back({.id = 1, .axes = {Vec3{s, 0, s}, Vec3{0, 1, 0}, Vec3{-s, 0, s}}});
+      } else {
+        m.rigid_walls[0].normal = {s, 0, s};
+      }
+      m.boundary_conditions.push_back({.id = 1, .translation = {skew, false, !skew}, .skew = skew ? 0 : no_index, .nodes = {0}});
+      Rig rig(m, 2.0);
+      rig.forces = [skew](state::State& state) { state.f_contact[0] = skew ? Vec3{0, 0, -20} : Vec3{-20, 0, 0}; };
+      rig.start();
+      const Vec3 n = m.rigid_walls[0].normal;
+      for (int k = 0; k < 400; ++k) {
+        rig.step(0.002);
+        ASSERT_GE(dot(rig.s.x[0], n), -1e-15) << k;
+        ASSERT_NEAR(rig.ledger(), 0.0, 1e-12) << k;
+      }
+      EXPECT_LT(dot(rig.s.x[0], n), 0.01);
+      EXPECT_LT(norm(rig.s.v[0]), 1e-13);
+      const double held = dot(rig.s.x[0] - Vec3{0, 0, 0.1}, skew ? Vec3{s, 0, s} : Vec3{0, 0, 1});
+      EXPECT_NEAR(held, 0.0, 1e-15);
+      EXPECT_EQ(rig.walls.in_contact(0), 1);
+    }
+  }
+}
+
 /// Model of a rigid body of nodes 0 (main) to 3 with a wall on its node 3, hit by nodes 4 to 6.
 model::Model wall_on_a_body(int slide) {
   auto m = nodes_at({{0, 0, -1}, {1, 0, -1}, {-0.5, 0.8, -1.2}, {0.4, 0.6, -0.5}, {0, 0, 0.1}, {2, 0, 0.12}, {0, 1, 0.3}});
