@@ -245,7 +245,7 @@ def test_a_run_folder_is_resumed(tmp_path):
 
 def test_a_resumed_run_has_the_rows_of_a_run_that_kept_none(tmp_path):
     deck = two_blocks().write(tmp_path / "deck")
-    run = abut.Run(abut.Model.read(deck), output=tmp_path / "out", checkpoint_every=10, record_history=False, threads=1)
+    run = abut.Run(abut.Model.read(deck), output=tmp_path / "out", checkpoint_every=37, record_history=False, threads=1)
     run.advance_to_end()
     (tmp_path / "deck" / "twoblocks_0002.rad").write_text(f"/RUN/twoblocks/2\n{1.5 * run.model.end_time}\n")
     resumed = abut.Run.resume(tmp_path / "out", threads=1)

@@ -26,18 +26,19 @@ namespace abut::contact {
 /// Springs that act on the motion of a pair together with its own, and push in proportion to their stiffness: what they do to a node counts
 /// as the pair's.
 struct Springs {
-  double passes = 1.0;  ///< as strong as the pair's, where no more is known
-  double stiffness =
-      0.0;           ///< that the pair has told the host of, beside which what is known of a body's springs is seen; 0: one spring alone
-  double own = 0.0;  ///< its kappa phi'', beside which those of this interface are seen
+  static constexpr double no_limit = 1e30;
+  double passes = 1.0;     ///< as strong as the pair's, where no more is known
+  double stiffness = 0.0;  ///< that the pair has told the host of, beside which a body's springs are seen; 0: one spring alone
+  double own = 0.0;        ///< its kappa phi'', beside which those of this interface are seen
 
   /// Springs on a node in the last step, over the pair's; 0: not known.
-  [[nodiscard]] double on(const HostState& host, Index node, const SideLoads& loads, Index s) const {
+  /// @param at_most  of this interface: on the corners of a facet not all switch together with the pair
+  [[nodiscard]] double on(const HostState& host, Index node, const SideLoads& loads, Index s, double at_most) const {
     if (stiffness <= 0.0) return 0.0;
     const Index entry = host.constrained.empty() ? no_index : host.constrained[static_cast<std::size_t>(node)];
     const double of_body = entry == no_index ? 0.0 : host.mobility[static_cast<std::size_t>(entry)].stiffness;
     if (of_body > 0.0) return of_body / stiffness;
-    return own > 0.0 ? static_cast<double>(loads.springs_before[static_cast<std::size_t>(s)]) / own : 0.0;
+    return own > 0.0 ? std::min(static_cast<double>(loads.springs_before[static_cast<std::size_t>(s)]) / own, at_most) : 0.0;
   }
   /// w^2 times their number, for a node that the pair moves with weight +-w.
   /// @param known   as on() has it

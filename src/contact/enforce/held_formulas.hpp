@@ -264,16 +264,17 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
   // As Springs has it.
   const T reach_of_weights = (simd::abs(h[0]) + simd::abs(h[1])) + (simd::abs(h[2]) + simd::abs(h[3]));
   const T over_weights = one / reach_of_weights;
-  const auto counted = [&](int i, T w, T over) {
+  const T pairs = T(rules.pairs), on_node_known = load<T>(b.springs[4] + k);
+  const auto counted = [&](int i, T w) {
     const T known = load<T>(b.springs[i] + k);
-    return simd::select(known > zero, w * simd::max(w, known) * over, T(rules.pairs) * (w * w));
+    return simd::select(known > zero, w * simd::max(w, simd::min(known, pairs * simd::sqrt(w))) * over_weights, pairs * (w * w));
   };
-  T inverse_mass = counted(4, one, one) * inverse(load<T>(b.mass[4] + k));
+  T inverse_mass = simd::select(on_node_known > zero, simd::max(one, on_node_known), pairs) * inverse(load<T>(b.mass[4] + k));
   for (int i = 0; i < 4; ++i) {
     const V<T> vi = simd::gather3(b.v, b.corner_v[i] + k, T());
     v = v - h[i] * vi;
     v_last = v_last - load<T>(b.last[i] + k) * vi;
-    inverse_mass = inverse_mass + counted(i, simd::abs(h[i]), over_weights) * inverse(load<T>(b.mass[i] + k));
+    inverse_mass = inverse_mass + counted(i, simd::abs(h[i])) * inverse(load<T>(b.mass[i] + k));
   }
   const T step = T(rules.step);
   const T rate = dot(v, n), closing = -rate;

@@ -33,12 +33,13 @@ double Pass::inverse_mass(const Scene& scene, Index i, const Touch& touch, const
   double spread = 0.0;
   for (const double w : touch.weight) spread += std::abs(w);
   const Index node = held.nodes()[at(i)];
-  double sum = springs.over(springs.on(host, node, held_loads, i), 1.0, 1.0) * inverse_mass_of(host, node, along);
+  double sum = springs.over(springs.on(host, node, held_loads, i, Springs::no_limit), 1.0, 1.0) * inverse_mass_of(host, node, along);
   for (std::size_t c = 0; c < 4; ++c) {
     const double w = std::abs(touch.weight[c]);
     if (w == 0.0) continue;
     const Index n = surface.nodes()[at(corner[c])];
-    sum += springs.over(springs.on(host, n, surface_loads, corner[c]), w, spread) * inverse_mass_of(host, n, along);
+    sum += springs.over(springs.on(host, n, surface_loads, corner[c], springs.passes * std::sqrt(w)), w, spread) *
+           inverse_mass_of(host, n, along);
   }
   return sum;
 }
