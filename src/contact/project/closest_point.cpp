@@ -19,6 +19,7 @@ Box domain(const Patch& patch) {
 // X = c + a s + b t + g s t, seen from `origin`: near the projected point rounding is that of the facet, not of the model's size.
 struct Bilinear {
   Vec3 c, a, b, g;
+  Bilinear(const Vec3& c0, const Vec3& a0, const Vec3& b0, const Vec3& g0) : c(c0), a(a0), b(b0), g(g0) {}
   explicit Bilinear(const Patch& p, const Vec3& origin = {})
       : c(0.25 * ((p.x[0] - origin) + (p.x[1] - origin) + (p.x[2] - origin) + (p.x[3] - origin))),
         a(0.25 * ((p.x[1] - p.x[0]) + (p.x[2] - p.x[3]))),
@@ -254,10 +255,15 @@ Fall strip(double overshoot, double width, double wider) {
 void fit_strips(Patch& patch) {
   if (patch.borders == 0 || patch.triangle) return;
   constexpr double left = 0.25;
-  const Bilinear q(patch);
+  const Vec3 d13 = patch.x[2] - patch.x[0], d24 = patch.x[3] - patch.x[1];
+  const Bilinear q{{}, 0.25 * (d13 - d24), 0.25 * (d13 + d24), 0.25 * ((patch.x[0] - patch.x[1]) + (patch.x[2] - patch.x[3]))};
   const Vec3 normal = cross(q.a, q.b);
-  const double area = squared_norm(normal), along_s = dot(cross(q.a, q.g), normal), along_t = dot(cross(q.g, q.b), normal);
-  double widest = border_strip + border_widening;
+  const double area = squared_norm(normal);
+  // Most are nearly parallelograms: |a x g| + |b x g| is a small part of |a x b| whatever their directions, and nothing folds.
+  constexpr double widest_strip = border_strip + border_widening, part = (1.0 - left) / (2.0 * widest_strip + (1.0 - left));
+  if (2.0 * (squared_norm(q.a) + squared_norm(q.b)) * squared_norm(q.g) <= part * part * area) return;
+  const double along_s = dot(cross(q.a, q.g), normal), along_t = dot(cross(q.g, q.b), normal);
+  double widest = widest_strip;
   for (int corner = 0; corner < 4; ++corner) {
     const double s = corner == 1 || corner == 2 ? 1.0 : -1.0, t = corner >= 2 ? 1.0 : -1.0;
     const bool over_s = (patch.borders >> (s > 0.0 ? 1 : 3) & 1) != 0, over_t = (patch.borders >> (t > 0.0 ? 2 : 0) & 1) != 0;
