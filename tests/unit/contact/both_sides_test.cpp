@@ -336,32 +336,6 @@ TEST(BothSides, initial_penetrations_can_be_dropped) {
   EXPECT_GT(host.f[4].z, 0.0);
 }
 
-// A window that opens over a node in the gap brings the energy that its spring then holds: work from outside, not made by contact.
-TEST(BothSides, a_birth_over_nodes_in_the_gap_is_booked) {
-  Host host;
-  add_quad(host, 0.0);
-  host.add({0.1, 0.2, 0.12}, 1.0);
-  BothSidesOptions o;
-  o.gap = 0.2;
-  o.damping = 0.0;
-  o.birth = 0.05;
-  Interface i = interface_of(4, one_quad, o, 1.0);
-  double put_in = 0.0;
-  while (host.time < 20.0) {
-    const StepResult r = host.step(i, 0.01);
-    const double kinetic = 0.5 * squared_norm(host.v[4]);
-    if (put_in == 0.0 && r.start_work > 0.0) {
-      put_in = r.start_work;
-      EXPECT_NEAR(put_in, r.elastic, 1e-12 * r.elastic);  // nothing moves yet
-    }
-    EXPECT_EQ(r.start_work, put_in);
-    EXPECT_LT(std::abs(kinetic + r.elastic - put_in), 0.02 * put_in + 1e-15);
-    EXPECT_LT(std::abs(r.made), 0.02 * put_in + 1e-15);
-  }
-  EXPECT_GT(put_in, 0.0);
-  EXPECT_GT(host.v[4].z, 0.0);
-}
-
 // Inacti 3 and 4: moved by p (1 + 1e-8), then nothing penetrates.
 TEST(BothSides, projections_take_penetrations_away) {
   for (const bool surface : {false, true}) {

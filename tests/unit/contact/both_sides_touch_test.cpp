@@ -190,5 +190,28 @@ TEST(BothSidesTouch, WhatEndsIsBookedWhereverTheNodeIs) {
   }
 }
 
+// A window that opens over a node in the gap brings the energy that its spring then holds: work from outside, not made by contact.
+TEST(BothSidesTouch, a_birth_over_nodes_in_the_gap_is_booked) {
+  Host host = over_a_quad(0.6 * gap, {});
+  BothSidesOptions o;
+  o.gap = gap;
+  o.damping = 0.0;
+  o.birth = 0.05;
+  Interface i = interface_with(o);
+  double put_in = 0.0;
+  while (host.time < 20.0) {
+    const StepResult r = host.step(i, 0.01);
+    if (put_in == 0.0 && r.start_work > 0.0) {
+      put_in = r.start_work;
+      EXPECT_NEAR(put_in, r.elastic, 1e-12 * r.elastic);  // nothing moves yet
+    }
+    EXPECT_EQ(r.start_work, put_in);
+    EXPECT_LT(std::abs(kinetic_energy(host) + r.elastic - put_in), 0.02 * put_in + 1e-15);
+    EXPECT_LT(std::abs(r.made), 0.02 * put_in + 1e-15);
+  }
+  EXPECT_GT(put_in, 0.0);
+  EXPECT_GT(host.v[4].z, 0.0);
+}
+
 }  // namespace
 }  // namespace abut::contact

@@ -77,7 +77,7 @@ TEST(Switching, plates_keep_their_energy) {
   }
 }
 
-// With every spring counted twice, as where meshes face: 1 to 10 %.
+// With every spring counted twice, as where meshes face: 0.08 to 3.2 % in the mean.
 TEST(Switching, unlike_meshes_keep_their_energy) {
   for (const double gap : {0.0, 0.1}) {
     for (const double hhk : {0.5, 0.2}) {
@@ -85,7 +85,7 @@ TEST(Switching, unlike_meshes_keep_their_energy) {
         const Bounce b = test::on_a_large_facet(gap, hhk, facets);
         std::printf("  gap %.2f h2K/m %.2f, %d by %d facets: |CX| mean %.4f %% worst %.4f %%\n", gap, hhk, facets, facets, 100 * b.mean,
                     100 * b.worst);
-        EXPECT_LT(b.mean, gap > 0.0 ? 0.002 : 1e-6);
+        EXPECT_LT(b.mean, gap > 0.0 ? 0.001 : 1e-6);
       }
     }
   }
