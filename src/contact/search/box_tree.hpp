@@ -19,10 +19,8 @@ struct Bounds {
   Vec3 high{-1e300, -1e300, -1e300};
 
   void include(const Vec3& p) {
-    for (int k = 0; k < 3; ++k) {
-      if (p[k] < low[k]) low[k] = p[k];
-      if (p[k] > high[k]) high[k] = p[k];
-    }
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   void include(const Bounds& b) {
     include(b.low);

@@ -22,10 +22,15 @@ namespace {
 constexpr double worth_keeping = 0.75;  // of the skin: lists that would have to be looked at again at once are made anew
 
 /// Lists count strips as wide as a held node's can be: they hold for held and free nodes.
-Patch widest(const Side& surface, Index f) {
-  Patch patch = surface.patch(f);
-  patch.strip = border_strip + border_widening;
-  return patch;
+Bounds widest_bounds(const Side& surface, Index f) {
+  if (surface.borders(f) != 0) {
+    Patch patch = surface.patch(f);
+    patch.strip = border_strip + border_widening;
+    return facet_bounds(patch);
+  }
+  Bounds box;
+  for (const Index corner : surface.surface().local()[at(f)]) box.include(surface.x()[at(corner)]);
+  return box;
 }
 
 }  // namespace
@@ -36,16 +41,20 @@ void Positions::keep(std::span<const Vec3> x) {
   for (const Vec3& p : x) all.include(p);
   low_ = x.empty() ? Vec3{} : all.low;
   unit_ = x.empty() ? Vec3{} : (all.high - all.low) / static_cast<double>(largest);
-  double squared = 0.0;
+  constexpr double tiny = 1e-290;  // below it there is no extent
+  const auto parts_of = [](double unit) { return unit > tiny ? 1.0 / unit : 0.0; };
+  const Vec3 parts{parts_of(unit_.x), parts_of(unit_.y), parts_of(unit_.z)};
+  const auto kept_part = [](double part) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min(part + 0.5, static_cast<double>(largest))));
+  };
   for (std::size_t i = 0; i < x.size(); ++i) {
-    x_[i] = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double part = unit_[axis] > 0.0 ? (x[i][axis] - low_[axis]) / unit_[axis] + 0.5 : 0.0;
-      x_[i] |= std::min(static_cast<std::uint64_t>(part), largest) << (static_cast<std::uint64_t>(axis) * bits);
-    }
-    squared = std::max(squared, squared_norm(x[i] - kept(i)));
+    const Vec3 d = x[i] - low_;
+    x_[i] = kept_part(d.x * parts.x) | kept_part(d.y * parts.y) << bits | kept_part(d.z * parts.z) << 2 * bits;
   }
-  error_ = std::sqrt(squared);
+  // Half of a unit along each axis, and rounding.
+  constexpr double rounding = 1e-15;
+  error_ =
+      0.5001 * norm(unit_) + rounding * (norm(low_) + static_cast<double>(largest) * norm(unit_)) + static_cast<double>(largest) * tiny;
 }
 
 double Positions::largest_motion(std::span<const Vec3> x, const Vec3& common) const {
@@ -72,7 +81,7 @@ bool Candidates::update(const Side& held, const Side& surface, const Motion& mot
   slack_ = 0.0;
   clock_ = 0.0;
   tree_.resize(at(surface.facet_count()));
-  for (Index f = 0; f < surface.facet_count(); ++f) tree_.set(f, facet_bounds(widest(surface, f)));
+  for (Index f = 0; f < surface.facet_count(); ++f) tree_.set(f, widest_bounds(surface, f));
   tree_.update();
   make(held, surface, reach, skin, executor);
   tree_.forget_boxes();  // near() is asked by few, who measure what they meet

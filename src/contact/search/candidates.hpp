@@ -46,7 +46,9 @@ class Positions {
   double error_ = 0.0;
 
   [[nodiscard]] Vec3 kept(std::size_t i) const {
-    const auto part = [this, i](std::uint64_t axis) { return static_cast<double>(x_[i] >> (axis * bits) & largest); };
+    const auto part = [this, i](std::uint64_t axis) {
+      return static_cast<double>(static_cast<std::int64_t>(x_[i] >> (axis * bits) & largest));
+    };
     return {low_.x + unit_.x * part(0), low_.y + unit_.y * part(1), low_.z + unit_.z * part(2)};
   }
 };
