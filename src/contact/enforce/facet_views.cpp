@@ -3,7 +3,7 @@
 namespace abut::contact {
 
 void FacetViews::look(const Side& surface, Index f, FacetView& view) const {
-  static_cast<MeanPlane&>(view) = mean_plane(surface.patch(f));
+  static_cast<MeanPlane&>(view) = mean_plane(surface.bare_patch(f));
   view.facet = f;
   view.step = step_;
   view.moves_known = false;
@@ -29,7 +29,7 @@ const FacetView& FacetViews::moving(const Side& surface, std::span<const Vec3> b
   view.rises = -1e300;
   for (const Vec3& one : coming) view.rises = std::max(view.rises, dot(view.normal, one));
   view.moves_known = true;
-  const Patch patch = surface.patch(f);
+  const Patch patch = surface.bare_patch(f);
   // As in closest_point.cpp; s and t are right within a few hundredths where these hold.
   constexpr double twist = 1e-4, slant = 0.25;
   const Vec3 a = 0.25 * ((patch.x[1] - patch.x[0]) + (patch.x[2] - patch.x[3]));

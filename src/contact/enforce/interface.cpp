@@ -72,13 +72,14 @@ struct Interface::Made {
       if (step >= 0.0 && std::isfinite(step)) continue;
       throw std::invalid_argument("contact: the step before (dt) must be a finite number >= 0, not " + std::to_string(step));
     }
-    Index lowest = no_index, highest = no_index;
-    for (const Index entry : host.constrained) {
-      lowest = std::min(lowest, entry);
-      highest = std::max(highest, entry);
-    }
-    if (lowest >= no_index && (highest == no_index || static_cast<std::size_t>(highest) < host.mobility.size())) return;
-    throw std::invalid_argument("contact: constrained names entry " + std::to_string(lowest < no_index ? lowest : highest) + " of " +
+    // no_index, which is -1, or below the number of entries: one comparison.
+    const auto entries = static_cast<std::uint32_t>(host.mobility.size());
+    const auto wrong = [entries](Index entry) { return static_cast<std::uint32_t>(entry) + 1U > entries; };
+    std::uint32_t any = 0;
+    for (const Index entry : host.constrained) any |= wrong(entry) ? 1U : 0U;
+    if (any == 0) return;
+    const Index entry = *std::find_if(host.constrained.begin(), host.constrained.end(), wrong);
+    throw std::invalid_argument("contact: constrained names entry " + std::to_string(entry) + " of " +
                                 std::to_string(host.mobility.size()));
   }
   /// Pairs have a stiffness, if only 0: what nobody gave would be no contact without a word.

@@ -28,9 +28,7 @@ Bounds widest_bounds(const Side& surface, Index f) {
     patch.strip = border_strip + border_widening;
     return facet_bounds(patch);
   }
-  Bounds box;
-  for (const Index corner : surface.surface().local()[at(f)]) box.include(surface.x()[at(corner)]);
-  return box;
+  return facet_bounds(surface.bare_patch(f));
 }
 
 }  // namespace
@@ -155,7 +153,7 @@ void Candidates::list(const Side& held, const Side& surface, Index first, std::s
   }
   near.clear();
   tree_.query(all, [&](Index f) {
-    if (surface.active(f)) near.push_back({f, surface.borders(f) != 0, surface.surface().facet(f).node, mean_plane(surface.patch(f))});
+    if (surface.active(f)) near.push_back({f, surface.borders(f) != 0, surface.surface().facet(f).node, mean_plane(surface.bare_patch(f))});
   });
   std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.facet < b.facet; });
   for (std::size_t k = 0; k < within.size(); ++k) {

@@ -28,7 +28,22 @@ MotionPart motions(const MotionArgs& args, std::size_t begin, std::size_t end) {
   for (std::size_t first = begin; first < end; first += MotionArgs::block) {
     const std::size_t last = first + MotionArgs::block < end ? first + MotionArgs::block : end;
     Four of_block = zero;
-    for (std::size_t i = first; i < last; i += 4) {
+    const auto four = [&](std::size_t i, const std::int32_t(&own)[4], const std::int32_t(&host)[4]) {
+      const V d = simd::gather3(args.x + 3 * i, own, Four()) - simd::gather3(args.before + 3 * i, own, Four());
+      for (int k = 0; k < 2; ++k) {
+        const Four s = square(d - common[k]);
+        of_all[k] = simd::max(of_all[k], s);
+        if (k == args.facing) of_block = simd::max(of_block, s);
+      }
+      of_block = simd::max(of_block, square(dt * simd::gather3(args.v, host, Four()) - common[args.facing]));
+      return d;
+    };
+    std::size_t i = first;
+    for (; i + 4 <= last; i += 4) {
+      const std::int32_t* node = args.node + i;
+      sum = sum + four(i, {0, 3, 6, 9}, {3 * node[0], 3 * node[1], 3 * node[2], 3 * node[3]});
+    }
+    if (i < last) {
       // Places beyond the last node repeat it; the sum leaves them out.
       std::int32_t own[4], host[4];
       double counts[4];
@@ -38,14 +53,7 @@ MotionPart motions(const MotionArgs& args, std::size_t begin, std::size_t end) {
         host[k] = 3 * args.node[n];
         counts[k] = i + k < last ? 1.0 : 0.0;
       }
-      const V d = simd::gather3(args.x + 3 * i, own, Four()) - simd::gather3(args.before + 3 * i, own, Four());
-      sum = sum + (i + 4 <= last ? d : simd::load4(counts) * d);
-      for (int k = 0; k < 2; ++k) {
-        const Four s = square(d - common[k]);
-        of_all[k] = simd::max(of_all[k], s);
-        if (k == args.facing) of_block = simd::max(of_block, s);
-      }
-      of_block = simd::max(of_block, square(dt * simd::gather3(args.v, host, Four()) - common[args.facing]));
+      sum = sum + simd::load4(counts) * four(i, own, host);
     }
     args.of_block[first / MotionArgs::block] = largest(of_block);
   }

@@ -74,10 +74,15 @@ class Side {
   /// Gives its positions for others, #N.
   void swap_positions(std::vector<Vec3>& x) { x_.swap(x); }
   [[nodiscard]] Patch patch(Index f) const {
-    const std::array<Index, 4>& local = surface_.local()[at(f)];
-    Patch patch{{x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, local[2] == local[3], borders_[at(f)]};
+    Patch patch = bare_patch(f);
+    patch.borders = borders_[at(f)];
     if (patch.borders != 0) fit_strips(patch);
     return patch;
+  }
+  /// Without strips, whatever its borders.
+  [[nodiscard]] Patch bare_patch(Index f) const {
+    const std::array<Index, 4>& local = surface_.local()[at(f)];
+    return {{x_[at(local[0])], x_[at(local[1])], x_[at(local[2])], x_[at(local[3])]}, local[2] == local[3]};
   }
 
   /// Unit normal of the surface at a closest point: of the facet on a face, the mean of two on an edge, the angle-weighted mean
