@@ -140,8 +140,8 @@ class ElementReader {
                               : family == Family::shell || family == Family::tetra ? 4
                               : family == Family::penta                            ? 6
                                                                                    : 8;
-    first_turned_ = 0;
-    turned_ = 0;
+    turned_ = {};
+    concave_ = {};
     for (const deck::Card& card : b.cards) {
       r.next_card();
       if (deck::field_text(card.text, {1, 100}).empty()) continue;
@@ -173,10 +173,17 @@ class ElementReader {
           break;
       }
     }
-    if (turned_ > 0) {
+    if (turned_.count > 0) {
       c_.diagnostics->warning(
           "model.negative_volume", r.place(),
-          fmt::format("{} elements with negative volume were turned inside out, the first is {}", turned_, first_turned_));
+          fmt::format("{} elements with negative volume were turned inside out, the first is {}", turned_.count, turned_.first));
+    }
+    if (concave_.count > 0) {
+      c_.diagnostics->warning(
+          "model.concave_shell", r.place(),
+          fmt::format("{} shells have a corner beyond 180 degrees, the first is {}: no quadrilateral element is right there, "
+                      "make two triangles of each",
+                      concave_.count, concave_.first));
     }
   }
 
@@ -230,6 +237,13 @@ class ElementReader {
     const std::array<Index, 4> n{nodes[0], nodes[1], nodes[2], triangle ? nodes[2] : nodes[3]};
     const double thickness = read_thickness(r);
     if (!check_area(r, id, n)) return;
+    const int turned = triangle ? 0 : turned_corners({x(n[0]), x(n[1]), x(n[2]), x(n[3])});
+    if (turned > 1) {
+      r.error("model.crossed_sides", {11, 50}, "n1-n4",
+              fmt::format("sides of shell {} cross: list its nodes one after the other around its border", id));
+      return;
+    }
+    if (turned == 1) concave_.add(id);
     if (triangle) r.warning("model.degenerate_shell", {41, 50}, "n4", fmt::format("shell {} is a triangle: /SH3N is better", id));
     shells_.add(id, part, n, thickness, b, card);
   }
@@ -248,10 +262,6 @@ class ElementReader {
     return volume > 0.0 ? 1 : -1;
   }
 
-  void count_turned(Id id) {
-    if (turned_++ == 0) first_turned_ = id;
-  }
-
   void report_zero_volume(BlockReader& r, Id id) {
     r.error("model.zero_volume", {11, 90}, "n1-n8",
             fmt::format("element {} has no volume: its nodes must not lie in one plane or coincide", id));
@@ -263,7 +273,7 @@ class ElementReader {
     if (s == 0) report_zero_volume(r, id);
     if (s < 0) {
       std::swap(n[1], n[3]);
-      count_turned(id);
+      turned_.add(id);
     }
     return s != 0;
   }
@@ -295,7 +305,7 @@ class ElementReader {
     }
     if (s < 0) {  // bottom and top change places; for a pentahedron this is the exchange of its two triangles
       std::swap_ranges(n.begin(), n.begin() + 4, n.begin() + 4);
-      count_turned(id);
+      turned_.add(id);
     }
     bricks_.add(id, part, n, 0.0, b, card);
   }
@@ -306,8 +316,15 @@ class ElementReader {
   Reading<3> sh3ns_;
   Reading<8> bricks_;
   Reading<4> tetras_;
-  int turned_ = 0;
-  Id first_turned_ = 0;
+  /// Elements of a block of which one message speaks.
+  struct Counted {
+    int count = 0;
+    Id first = 0;
+    void add(Id id) {
+      if (count++ == 0) first = id;
+    }
+  };
+  Counted turned_, concave_;
 };
 
 }  // namespace

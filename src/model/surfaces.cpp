@@ -153,6 +153,11 @@ std::optional<Segment> SetReader::read_segment(BlockReader& r, int first_column)
     r.error("model.zero_area", {first_column, first_column + 39}, "n1-n4", fmt::format("the segment has no area: {}", why_no_area(x)));
     return std::nullopt;
   }
+  if (s.nodes[3] != s.nodes[2] && turned_corners(x) > 1) {
+    r.error("model.crossed_sides", {first_column, first_column + 39}, "n1-n4",
+            "sides of the segment cross: list its nodes one after the other around its border");
+    return std::nullopt;
+  }
   if (!node_elements_) node_elements_.emplace(m_);
   s.element = node_elements_->behind(m_, s.nodes);
   return s;

@@ -115,6 +115,17 @@ const char* why_no_area(const std::array<Vec3, 4>& x) {
                     : "its nodes must be distinct and not on one line";
 }
 
+int turned_corners(const std::array<Vec3, 4>& x) {
+  constexpr double straight = 1e-6;
+  const Vec3 normal = cross(x[2] - x[0], x[3] - x[1]);
+  const double size = squared_norm(normal);
+  int turned = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (dot(cross(x[(k + 1) % 4] - x[k], x[(k + 3) % 4] - x[k]), normal) < -straight * size) ++turned;
+  }
+  return turned;
+}
+
 Index solid_count(const Model& m) { return m.bricks.size() + m.tetras.size(); }
 
 std::span<const Index> solid_nodes(const Model& m, Index solid) {

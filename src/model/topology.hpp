@@ -21,6 +21,8 @@ namespace abut::model {
 [[nodiscard]] double facet_area(const std::array<Vec3, 4>& x);
 /// What is wrong with a facet without area: "its nodes must be distinct and not on one line", or that their order is crossed.
 [[nodiscard]] const char* why_no_area(const std::array<Vec3, 4>& x);
+/// How many corners of a quadrilateral turn against the others: 0 convex, 1 the inner angle there is beyond 180 degrees, 2 sides cross.
+[[nodiscard]] int turned_corners(const std::array<Vec3, 4>& x);
 
 /// A face: up to four distinct nodes in order, outward; unused places hold no_index. Empty (nodes[0] == no_index): the face does not exist.
 using Face = std::array<Index, 4>;

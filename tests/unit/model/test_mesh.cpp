@@ -108,6 +108,26 @@ TEST(Mesh, CrossedOrderOfNodesIsSaid) {
   EXPECT_NE(errors[2].find("distinct and not on one line"), std::string::npos);
 }
 
+// Also where the area of the two halves is not the same; an arrow head is read, and said once for all.
+TEST(Mesh, CrossedSidesAndCornersBeyondAStraightAngleAreSaid) {
+  const std::string nodes = "/NODE\n" + node(1, "0", "0", "0") + node(2, "1", "0", "0") + node(3, "3", "2", "0") + node(4, "0", "1", "0") +
+                            node(5, "0.9", "0.6", "0") + node(6, "1", "2", "0.5");
+  Reading crossed;
+  crossed.read(head() + nodes + "/SHELL/1\n" + ints({1, 1, 2, 4, 3}) + "/SURF/SEG/1\ns\n" + ints({1, 1, 2, 4, 3}));
+  EXPECT_EQ(
+      crossed.errors(),
+      (Strings{"t_0000.rad:33: /SHELL/1 field 'n1-n4' (columns 11-50): sides of shell 1 cross: list its nodes one after the other around "
+               "its border",
+               "t_0000.rad:36: /SURF/SEG/1 field 'n1-n4' (columns 11-50): sides of the segment cross: list its nodes one after the other "
+               "around its border"}));
+  Reading arrow;
+  arrow.read(head() + nodes + "/SHELL/1\n" + ints({1, 1, 2, 3, 4}) + ints({2, 5, 2, 3, 4}) + ints({3, 1, 2, 6, 4}) + ints({4, 2, 3, 4, 5}));
+  EXPECT_EQ(arrow.errors(), Strings{});
+  EXPECT_EQ(arrow.messages(Severity::warning),
+            (Strings{"t_0000.rad:32: warning: /SHELL/1: 2 shells have a corner beyond 180 degrees, the first is 2: no "
+                     "quadrilateral element is right there, make two triangles of each"}));
+}
+
 TEST(Mesh, BadNodesSayWhatWouldBeRight) {
   Reading r;
   r.read(std::string(begin_2022) + "/NODE\n" + node(1, "1.2.3", "0", "0") + node(1, "0", "0", "0") + node(0, "0", "0", "0") +
