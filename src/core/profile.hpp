@@ -25,13 +25,13 @@ struct Profile {
   /// Stretch that a finite rotation over one step leaves in shells of Ishell 1 and 2: removed, or the reference's correction,
   /// which is twice as large.
   enum class ShellRotation { exact, reference };
-  /// Strain increment of a step (elements of large strain; shells: in their plane): that of the motion at mid-step, turned to the axes at
-  /// its end, to second order; or from the geometry at its end, without what a rotation in the step adds but where the reference takes it
-  /// out.
+  /// Strain increment of a step (elements of large strain; shells: of the membrane; quadrilaterals: all rates): that of the motion at
+  /// mid-step, turned to the axes at its end, to second order; or from the geometry at its end, without what a rotation in the step adds
+  /// but where the reference takes it out.
   enum class StrainIncrement { midpoint, reference };
-  /// Warped membranes (Ishell 3 and 4, N = 1) whose hourglass rates leave out what a rigid rotation makes through v_z: the forces do work
-  /// on v_z as well (no net moment, a potential), or do not.
-  enum class WarpedMembrane { balanced, reference };
+  /// Warped shells (Ishell 3 and 4) whose hourglass rates leave out what a rigid rotation makes: rates and forces see the same, the nodes'
+  /// rotations, or v_z where there are none (N = 1); or rates see v_z and forces act on the rotations, if there are any.
+  enum class WarpedShell { balanced, reference };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
   /// Rigid bodies: exact rotation of secondary nodes, gyroscopic moment at mid-step (keeps energy and angular momentum),
@@ -60,7 +60,7 @@ struct Profile {
   SmallStrainEnergy small_strain_energy = SmallStrainEnergy::work;
   ShellRotation shell_rotation = ShellRotation::exact;
   StrainIncrement strain_increment = StrainIncrement::midpoint;
-  WarpedMembrane warped_membrane = WarpedMembrane::balanced;
+  WarpedShell warped_shell = WarpedShell::balanced;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
   TetraSpin tetra_spin = TetraSpin::exact;
@@ -81,7 +81,7 @@ struct Profile {
     p.small_strain_energy = SmallStrainEnergy::mean_volume;
     p.shell_rotation = ShellRotation::reference;
     p.strain_increment = StrainIncrement::reference;
-    p.warped_membrane = WarpedMembrane::reference;
+    p.warped_shell = WarpedShell::reference;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
     p.tetra_spin = TetraSpin::reference;

@@ -3,8 +3,8 @@
 // Equation contract (numerics.md 3.10; Belytschko, Stolarski, Carpenter, IJNME 20 (1984) 787; Kennedy, Belytschko, Lin (1986)):
 //   frame e1 along side 1-2, e3 normal; P_x1 = -y3/2, P_y1 = (x3 - x2)/2, P_x2 = y3/2, P_y2 = -x3/2, P_x3 = 0, P_y3 = x2/2
 //   rates as for the quad with these P; transverse shear with the rows below, moments with their transposes
-//   second-order corrections a, b (out-of-plane rotation), from absolute velocities in the frame; in the plane membrane_at_midpoint(), or
-//   the reference's a', b' (Ish3n 2)
+//   all rates those of mid-step (Profile::StrainIncrement; docs/theory/elements.md), or the reference's second-order corrections a, b
+//   (out-of-plane rotation), from absolute velocities in the frame, and a', b' in the plane (Ish3n 2)
 // Step, reference (numerics.md 2.1.3, 2.2): L = 2A/longest side. Bound: the form of shell_q4/step_length.hpp with node masses mu_I:
 // p = sum_I P_I P_I^T/mu_I is a 2 by 2 tensor, k_m = t/(2A) (A11 tr p + sqrt(A11^2 (tr^2 - 4 det) + 4 A12^2 det)) is exact,
 // k_b = k_m t^2/(12 r^2), k_s = kappa_s G t A times the largest eigenvalue of the 2 by 2 matrix B_s M^-1 B_s^T (exact). Bending and shear
@@ -149,37 +149,60 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   const T vx1 = dot(gv1, g.e1), vx2 = dot(gv2, g.e1), vx3 = dot(gv3, g.e1);
   const T vy1 = dot(gv1, g.e2), vy2 = dot(gv2, g.e2), vy3 = dot(gv3, g.e2);
   const T vz1 = dot(gv1, g.e3), vz2 = dot(gv2, g.e3), vz3 = dot(gv3, g.e3);
-  const T wx1 = dot(gw1, g.e1), wx2 = dot(gw2, g.e1), wx3 = dot(gw3, g.e1);
-  const T wy1 = dot(gw1, g.e2), wy2 = dot(gw2, g.e2), wy3 = dot(gw3, g.e2);
+  T wx1 = dot(gw1, g.e1), wx2 = dot(gw2, g.e1), wx3 = dot(gw3, g.e1);
+  T wy1 = dot(gw1, g.e2), wy2 = dot(gw2, g.e2), wy3 = dot(gw3, g.e2);
 
-  // second-order corrections
-  const T quarter = T(0.25 * h);
-  const T p_bar = g.py1 + g.py2, inverse_p = one / p_bar;
-  const T per_p = quarter * inverse_p, per_x = quarter / g.px1;
-  const T a = per_p * (vz1 - vz2), b = per_x * ((g.py1 * vz1 + g.py2 * vz2) * inverse_p - vz3);
-  T hx1 = vx1 - a * vz1, hx2 = vx2 - a * vz2, hx3 = vx3 - a * vz3;
-  T hy1 = vy1 - b * vz1, hy2 = vy2 - b * vz2, hy3 = vy3 - b * vz3;
-  if (q.large_rotation && !q.midpoint) {
-    const T a2 = per_p * (vy1 - vy2), b2 = per_x * ((g.py1 * vx1 + g.py2 * vx2) * inverse_p - vx3);
-    hx1 -= a2 * vy1;
-    hx2 -= a2 * vy2;
-    hx3 -= a2 * vy3;
-    hy1 -= b2 * vx1;
-    hy2 -= b2 * vx2;
-    hy3 -= b2 * vx3;
+  // slopes of v_z, second-order corrections
+  const T slope_x = g.px1 * (vz1 - vz2), slope_y = g.py1 * (vz1 - vz3) + g.py2 * (vz2 - vz3);
+  T hx1 = vx1, hx2 = vx2, hx3 = vx3, hy1 = vy1, hy2 = vy2, hy3 = vy3;
+  if (!q.midpoint) {
+    const T quarter = T(0.25 * h);
+    const T p_bar = g.py1 + g.py2, inverse_p = one / p_bar;
+    const T per_p = quarter * inverse_p, per_x = quarter / g.px1;
+    const T a = per_p * (vz1 - vz2), b = per_x * ((g.py1 * vz1 + g.py2 * vz2) * inverse_p - vz3);
+    hx1 = vx1 - a * vz1;
+    hx2 = vx2 - a * vz2;
+    hx3 = vx3 - a * vz3;
+    hy1 = vy1 - b * vz1;
+    hy2 = vy2 - b * vz2;
+    hy3 = vy3 - b * vz3;
+    if (q.large_rotation) {
+      const T a2 = per_p * (vy1 - vy2), b2 = per_x * ((g.py1 * vx1 + g.py2 * vx2) * inverse_p - vx3);
+      hx1 -= a2 * vy1;
+      hx2 -= a2 * vy2;
+      hx3 -= a2 * vy3;
+      hy1 -= b2 * vx1;
+      hy2 -= b2 * vx2;
+      hy3 -= b2 * vx3;
+    }
   }
 
   // rates
-  const C0ShearRows<T> r = c0_shear_rows(g);
-  const T zx = g.px1 * (vz1 - vz2) + (r.zx_x1 * wx1 + r.zx_x2 * wx2) + (r.zx_y1 * wy1 + r.zx_y2 * wy2 + r.zx_y3 * wy3);
-  const T yz = g.py1 * (vz1 - vz3) + g.py2 * (vz2 - vz3) + (r.yz_x1 * wx1 + r.yz_x2 * wx2 + r.yz_x3 * wx3) +
-               (r.yz_y1 * wy1 + r.yz_y2 * wy2 + r.yz_y3 * wy3);
   ShellRates<T> rate;
   rate.exx = g.px1 * (hx1 - hx2) * inverse_area;
   rate.eyy = (g.py1 * (hy1 - hy3) + g.py2 * (hy2 - hy3)) * inverse_area;
   const T gxy = (g.py1 * (hx1 - hx3) + g.py2 * (hx2 - hx3)) * inverse_area, gyx = g.px1 * (hy1 - hy2) * inverse_area;
   rate.gxy = gxy + gyx;
-  if (q.midpoint) membrane_at_midpoint(rate, rate.exx, gxy, gyx, rate.eyy, T(h), 0.5, true);
+  T shear_x = slope_x, shear_y = slope_y;
+  if (q.midpoint) {
+    // As in shell_q4/kernel.hpp; the frame follows side 1-2.
+    const T half = T(0.5 * h), dxx = rate.exx, dyy = rate.eyy, gx = slope_x * inverse_area, gy = slope_y * inverse_area;
+    const T a = half * gyx, b = half * gx, c = half * gy, two = T(2.0);
+    membrane_at_midpoint(rate, dxx, gxy, gyx, dyy, gx, gy, T(h), 0.5, true);
+    shear_x = slope_x + g.area * (two * (b * dxx + c * gyx) - a * gy);
+    shear_y = slope_y + g.area * (two * (b * gxy + c * dyy) + a * gx);
+    const auto turn = [&](T & x, T & y, const Vec<T>& w) __attribute__((always_inline)) {
+      const T was = x, z = dot(w, g.e3);
+      x = (x - a * y) - b * z;
+      y = (y + a * was) - c * z;
+    };
+    turn(wx1, wy1, gw1);
+    turn(wx2, wy2, gw2);
+    turn(wx3, wy3, gw3);
+  }
+  const C0ShearRows<T> r = c0_shear_rows(g);
+  const T zx = shear_x + (r.zx_x1 * wx1 + r.zx_x2 * wx2) + (r.zx_y1 * wy1 + r.zx_y2 * wy2 + r.zx_y3 * wy3);
+  const T yz = shear_y + (r.yz_x1 * wx1 + r.yz_x2 * wx2 + r.yz_x3 * wx3) + (r.yz_y1 * wy1 + r.yz_y2 * wy2 + r.yz_y3 * wy3);
   rate.exx = select(alive, rate.exx, zero);
   rate.eyy = select(alive, rate.eyy, zero);
   rate.gxy = select(alive, rate.gxy, zero);

@@ -5,10 +5,11 @@
 //   forces  f_xI = t (F_xx P_xI + F_xy P_yI), m_yI = t^2 (M_xx P_xI + M_xy P_yI) + t A F_zx/4, ... plus hourglass
 // Symbols: d13 = value at node 1 minus value at node 3; hg = value_1 - value_2 + value_3 - value_4. Since P_3 = -P_1 and P_4 = -P_2, only
 // d13, d24 and hg of the velocities (and the sum of the rotations) are needed, and only these are rotated into the frame.
-// Second-order corrections (numerics.md 3.3) remove the stretch that a finite rotation over one step would leave: theta^2/2 for
-// velocities along the chords in the frame at the end. Ishell 1, 2: delta_x = c h (d13 v_z - d24 v_z)^2/(P_y1 + P_y2), likewise y; for a
-// rectangle turning about e2 that changes the strain by -4 c theta^2, so c = 1/8. The reference has c = 1/4 (Profile::ShellRotation).
-// In the plane: membrane_at_midpoint() (Profile::StrainIncrement; the reference has nothing there).
+// Rates are those of mid-step (docs/theory/elements.md, strain increments; Profile::StrainIncrement): the membrane by
+// membrane_at_midpoint(), all others along the frame of mid-step, gamma . v also with the turn of the pattern that gamma of x^n sees late.
+// The reference instead takes part of the stretch of theta^2/2 out of the velocities that a finite rotation out of the plane leaves
+// (numerics.md 3.3). Ishell 1, 2: delta_x = c h (d13 v_z - d24 v_z)^2/(P_y1 + P_y2), likewise y, c = 1/4; for a rectangle turning about e2
+// that changes the strain by -4 c theta^2, so c = 1/8 would be right (Profile::ShellRotation).
 // Elements that are off or rigid see zero rates and write zeros.
 #pragma once
 
@@ -61,7 +62,7 @@ template <class T>
 struct Q4Motion {
   Q4Geometry<T> g;
   T vx13, vy13, vz13, vx24, vy24, vz24, vxh, vyh, vzh;
-  T wx13, wy13, wx24, wy24, wxs, wys, wxh, wyh;
+  T wx13, wy13, wz13, wx24, wy24, wz24, wxs, wys, wzs, wxh, wyh, wzh;
 };
 
 /// First stage: positions, frame, operators.
@@ -105,6 +106,10 @@ ABUT_INLINE void q4_motion(const ShellKernelArgs& args, const std::int32_t* node
   m.wys = dot(sum, g.e2);
   m.wxh = dot(hg, g.e1);
   m.wyh = dot(hg, g.e2);
+  m.wz13 = dot(d13, g.e3);
+  m.wz24 = dot(d24, g.e3);
+  m.wzs = dot(sum, g.e3);
+  m.wzh = dot(hg, g.e3);
 }
 
 /// Third stage: rates, section, hourglass, forces, for the NumberTraits<T>::width elements from `lane` on of one block.
@@ -126,16 +131,19 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const T inverse_area = g.inverse_area;
   T vx13 = motion.vx13, vy13 = motion.vy13, vx24 = motion.vx24, vy24 = motion.vy24, vxh = motion.vxh, vyh = motion.vyh;
   const T vz13 = motion.vz13, vz24 = motion.vz24, vzh = motion.vzh;
-  const T wx13 = motion.wx13, wy13 = motion.wy13, wx24 = motion.wx24, wy24 = motion.wy24;
-  const T wxs = motion.wxs, wys = motion.wys, wxh = motion.wxh, wyh = motion.wyh;
+  T wx13 = motion.wx13, wy13 = motion.wy13, wx24 = motion.wx24, wy24 = motion.wy24;
+  T wxs = motion.wxs, wys = motion.wys, wxh = motion.wxh, wyh = motion.wyh;
 
-  // transverse shear of the mid-surface; second-order corrections
-  const T gy = (g.py1 * vz13 + g.py2 * vz24) * inverse_area, gx = (g.px1 * vz13 + g.px2 * vz24) * inverse_area;
+  // slopes of v_z, hourglass rates, second-order corrections
+  T gy = (g.py1 * vz13 + g.py2 * vz24) * inverse_area, gx = (g.px1 * vz13 + g.px2 * vz24) * inverse_area;
   T rate_x, rate_y, rate_z = vzh - g.area * (g.hx * gx + g.hy * gy);
-  T z_force = zero;  // height at which the hourglass forces of a warped element act
-  if (q.ishell <= 2) {
+  const auto set_hourglass_rates = [&]() __attribute__((always_inline)) {
     rate_x = vxh - (g.px1 * vx13 + g.px2 * vx24) * g.hx - (g.py1 * vx13 + g.py2 * vx24) * g.hy;
     rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
+  };
+  const T z_force = q.ishell >= 3 && s.bending ? g.z2 : zero;  // height at which the hourglass forces of a warped element act
+  if (q.midpoint || q.ishell <= 2) set_hourglass_rates();
+  if (!q.midpoint && q.ishell <= 2) {
     const T factor = T(q.rotation_correction * h);
     const T minus = vz13 - vz24, plus = vz13 + vz24;
     const T below_x = q4_detail::guarded(g.py1 + g.py2), below_y = q4_detail::guarded(g.px2 - g.px1);
@@ -146,7 +154,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
     vx24 += dx;
     vy13 += dy;
     vy24 += dy;
-  } else {
+  } else if (!q.midpoint) {
     const T qx = T(0.5 * h) * (gx * gx), qy = T(0.5 * h) * (gy * gy);
     vx13 -= two * qx * g.py2;
     vx24 += two * qx * g.py1;
@@ -160,9 +168,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
       vyh -= qy * g.area * g.hy;
       rate_z += two * (qx + qy) * g.z2;
     }
-    rate_x = vxh - (g.px1 * vx13 + g.px2 * vx24) * g.hx - (g.py1 * vx13 + g.py2 * vx24) * g.hy;
-    rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
-    if (s.bending) z_force = g.z2;
+    set_hourglass_rates();
   }
 
   // velocity strains and curvature rates
@@ -171,7 +177,36 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   rate.eyy = (g.py1 * vy13 + g.py2 * vy24) * inverse_area;
   const T gxy = (g.py1 * vx13 + g.py2 * vx24) * inverse_area, gyx = (g.px1 * vy13 + g.px2 * vy24) * inverse_area;
   rate.gxy = gxy + gyx;
-  if (q.midpoint) membrane_at_midpoint(rate, rate.exx, gxy, gyx, rate.eyy, T(h), 0.0, !q.may_freeze);
+  if (q.midpoint) {
+    // h W of the rotation W = (gy, -gx, omega), half of it: the frame of mid-step is e1 - a e2 - b e3, e2 + a e1 - c e3, e3 + b e1 + c e2.
+    const T half = T(0.5 * h), dxx = rate.exx, dyy = rate.eyy;
+    const T a = half * (T(0.5) * (gyx - gxy)), b = half * gx, c = half * gy;
+    membrane_at_midpoint(rate, dxx, gxy, gyx, dyy, gx, gy, T(h), 0.0, !q.may_freeze);
+    const T raw_x = gx;
+    gx = gx + two * (b * dxx + c * gyx) - a * gy;
+    gy = gy + two * (b * gxy + c * dyy) + a * raw_x;
+    const auto turn = [&](T & x, T & y, T z) __attribute__((always_inline)) {
+      const T was = x;
+      x = (x - a * y) - b * z;
+      y = (y + a * was) - c * z;
+    };
+    turn(wx13, wy13, motion.wz13);
+    turn(wx24, wy24, motion.wz24);
+    turn(wxs, wys, motion.wzs);
+    turn(wxh, wyh, motion.wzh);
+    // Hourglass: the operator of x^n sees the pattern half a step late too. What turns the corners' heights is no hourglass motion.
+    const T p = two * (g.z2 * gx), r = two * (g.z2 * gy), x = rate_x - p, y = rate_y - r, z = rate_z;
+    rate_x = x - two * (a * y + b * z) - a * r;
+    rate_y = y + two * (a * x - c * z) + a * p;
+    rate_z = z + (b * (two * x + p) + c * (two * y + r));
+    if (q.ishell <= 2) {  // flat elements see it
+      rate_x += p;
+      rate_y += r;
+    } else if (s.bending && q.balanced_warp) {  // their forces act on the rotations, beyond which the corners' heights tilt by shear
+      rate_x += two * (g.z2 * (gx + T(0.25) * wys));
+      rate_y += two * (g.z2 * (gy - T(0.25) * wxs));
+    }
+  }
   rate.exx = select(alive, rate.exx, zero);
   rate.eyy = select(alive, rate.eyy, zero);
   rate.gxy = select(alive, rate.gxy, zero);
@@ -202,7 +237,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const T f1y = t * (n.fyy * g.py1 + n.fxy * g.px1), f2y = t * (n.fyy * g.py2 + n.fxy * g.px2);
   T f1z = t * (n.fzx * g.px1 + n.fyz * g.py1) + (hg.dn_1 + hg.dn_2);
   T f2z = t * (n.fzx * g.px2 + n.fyz * g.py2) + (hg.dn_1 - hg.dn_2);
-  if (q.balanced_warp) {  // what the hourglass rates do not see of v_z
+  if (q.balanced_warp && !s.bending) {  // what the hourglass rates do not see of v_z
     const T slope = two * g.z2 * n.off * inverse_area;
     f1z -= slope * (hg.qx * g.px1 + hg.qy * g.py1);
     f2z -= slope * (hg.qx * g.px2 + hg.qy * g.py2);

@@ -14,8 +14,8 @@ struct Q4Parameters {
   bool trapezoidal = true;             ///< Profile::HourglassEnergy
   bool homogeneous = true;             ///< Profile::RotationalHourglass
   bool midpoint = true;                ///< Profile::StrainIncrement
-  bool balanced_warp = false;          ///< Profile::WarpedMembrane: a membrane of Ishell 3 or 4
-  double rotation_correction = 0.125;  ///< factor of the second-order terms of Ishell 1 and 2: 1/8 exact, 1/4 reference
+  bool balanced_warp = false;          ///< Profile::WarpedShell, of Ishell 3 or 4
+  double rotation_correction = 0.125;  ///< without midpoint: factor of the second-order terms of Ishell 1 and 2, 1/8 exact, 1/4 reference
 
   int at_hourglass = -1;      ///< elastic Q_x Q_y Q_z
   int at_hourglass_old = -1;  ///< total q_x q_y q_z mu_x mu_y of the last step (trapezoidal energy)

@@ -17,11 +17,9 @@
 //               bending and shear do not add up: max(k_b, k_s).
 //   hourglass   rank one each: membrane k_h = E h_m t/8 |gamma|^2/mu (both directions alike, orthogonal), normal
 //               k_z |gamma|^2/mu. gamma is not orthogonal to P on a distorted quad: they add to k_m and to k_s.
-//   warped quads (Ishell 3, 4): hourglass rates see v_z through -2 z2 (P.v_z)/A, forces act on the rotations through z2/2;
-//               the coupling matrix E = k L R^T is not symmetric; its norm is at most
-//               k sqrt((|gamma|^2/mu + z2^2/J) (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu))), which is added to the largest. Membranes (N = 1)
-//               have no rotations; their forces act back on v_z (Profile::WarpedMembrane), E is symmetric: k (|gamma|^2/mu + 4 z2^2
-//               p_max/(A^2 mu)).
+//   warped quads (Ishell 3, 4): rates see the rotations on which the forces act, through z2/2: k (|gamma|^2/mu + z2^2/J), added to the
+//               largest. Membranes (N = 1) have none: k (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu)). Where rates see v_z and forces act on
+//               rotations (Profile::WarpedShell) K is not symmetric; its norm is at most the root of the product of both.
 // Viscous parts: membrane damping has the form of the membrane with d [1 1/2; 1/2 1] and d/3 in shear in place of C. That is not isotropic
 // (d/4 would be); it is majorised by the isotropic d [13 5; 5 13]/12, d/3, exact for squares; the quadratic hourglass
 // terms enter with their tangent 2 c |rate|; linear ones (Ishell 3 rotations, N = 1 with dn) as they are. N = 1 has no bending and no
@@ -70,7 +68,8 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
   if (q.ishell >= 3) {
     const T z2 = g.z2 * g.z2;
     const T seen = gamma2 + four * z2 * p_max * inverse_mass * (inverse_area * inverse_area);
-    const T coupling = (q.balanced_warp ? seen : sqrt((gamma2 + z2 * inverse_inertia) * seen)) * hg.membrane;
+    const T on_rotations = gamma2 + z2 * inverse_inertia;
+    const T coupling = (q.balanced_warp ? (s.bending ? on_rotations : seen) : sqrt(on_rotations * seen)) * hg.membrane;
     k = max(membrane, out_of_plane) + coupling;
   } else {
     k = max(membrane + hg.membrane * gamma2, out_of_plane);
