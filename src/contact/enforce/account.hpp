@@ -18,8 +18,10 @@
 
 namespace abut::contact {
 
-/// The step before the last one, from the last one and the mean of the two; the first step of a run has none before it.
-[[nodiscard]] inline double step_before(double step, double mean) { return 2.0 * mean > 1.0001 * step ? 2.0 * mean - step : step; }
+/// The first step of a run has none before it: the mean of the two is half of it.
+[[nodiscard]] inline bool is_first_step(double step, double mean) { return 2.0 * mean <= 1.0001 * step; }
+/// The step before the last one, from the last one and the mean of the two.
+[[nodiscard]] inline double step_before(double step, double mean) { return is_first_step(step, mean) ? step : 2.0 * mean - step; }
 
 struct LastForce {
   double rate = 0.0;          ///< v, > 0: opens

@@ -201,7 +201,10 @@ void Pass::finish_node(const Scene& scene, Index i, Touch& touch, bool rub, Grou
   bool settled = before.light == NodeState::settled && motion.rate > 0.0;  // until it turns round
   const bool light = lightness > light_pair || before.light != 0 || over_fold;
   if (rules.switch_correction && host.dt > 0.0 && touch.pair.magnitude > 0.0) {
-    const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - before.acceleration : 0.0;
+    // Before the first step no springs were known, which on bodies count: what the first force did is by those that are known now.
+    const bool after_start = is_first_step(host.dt, host.dt_bar_old) && !host.mobility.empty();
+    const double given = after_start ? (before.force + before.damping) * inverse_mass : before.acceleration;
+    const double others = !fresh && host.dt_bar_old > 0.0 ? (rate_along_last - before.rate) / host.dt_bar_old - given : 0.0;
     const double coming = foreseen_step(h_before, host.dt);
     const Switching s{touch.law, touch.pair.stiffness, penetration, host.dt, -closing, inverse_mass, others, coming};
     const Switched switched = switched_force(s, fresh);
