@@ -33,15 +33,6 @@ Vec3 solve(double s, const std::array<Vec3, 3>& a, const Vec3& b) {
   return Vec3{dot(b, cross(c1, c2)), dot(c0, cross(b, c2)), dot(c0, cross(c1, b))} / det;
 }
 
-/// Friction filter: weight of the new value.
-double filter_weight(const model::RigidWall& card, double h_bar) {
-  constexpr double turn = 2.0 * 3.14159265358979323846;
-  return card.filter_kind == 1   ? card.filter
-         : card.filter_kind == 2 ? turn / card.filter
-         : card.filter_kind == 3 ? turn * card.filter * h_bar
-                                 : 1.0;
-}
-
 }  // namespace
 
 RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies, const BoundaryConditions& conditions,
@@ -51,6 +42,7 @@ RigidWalls::RigidWalls(const model::Model& model, const RigidBodies& bodies, con
       conditions_(&conditions),
       motions_(&motions),
       same_cycle_(profile.moving_wall == Profile::MovingWall::same_cycle),
+      bounded_filter_(profile.wall_filter == Profile::WallFilter::bounded),
       walls_(model.rigid_walls.size()),
       sums_(model.rigid_walls.size()),
       meter_(touched_nodes(model), &bodies),
@@ -129,6 +121,15 @@ void RigidWalls::persist(state::Archive& a) {
   meter_.persist(a);
 }
 
+double RigidWalls::weight_of_new(const model::RigidWall& card, double h_bar) const {
+  constexpr double turn = 2.0 * 3.14159265358979323846;
+  if (card.filter_kind == 1) return card.filter;
+  if (card.filter_kind == 2) return turn / card.filter;
+  if (card.filter_kind != 3) return 1.0;
+  const double weight = turn * card.filter * h_bar;
+  return bounded_filter_ ? std::min(weight, 1.0) : weight;
+}
+
 bool RigidWalls::reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const {
   const auto i = static_cast<std::size_t>(node);
   const Vec3 predicted = state.v[i] + state.times.h_bar * state.a[i];
@@ -192,7 +193,7 @@ Vec3 RigidWalls::velocity_after_impact(const Wall& wall, const state::State& sta
 Vec3 RigidWalls::velocity_with_friction(const Wall& wall, const state::State& state, const model::RigidWall& card, const Vec3& before,
                                         const Plane& plane) const {
   const Vec3 n = card.normal;
-  const double alpha = filter_weight(card, state.times.h_bar);
+  const double alpha = weight_of_new(card, state.times.h_bar);
   const auto along_plane = [&n](const Vec3& b) { return b - dot(b, n) * n; };
   Vec3 velocity = plane.velocity;
   for (int pass = 0; pass < largest_count; ++pass) {
@@ -259,7 +260,7 @@ void RigidWalls::apply_wall(std::size_t index, state::State& state) {
       if (card.slide == 2) wall_velocity = velocity_with_friction(wall, state, card, before, plane);
     }
   }
-  const double alpha = filter_weight(card, hb);
+  const double alpha = weight_of_new(card, hb);
 
   Vec3 normal_impulse{}, tangential_impulse{};
   double impacted = 0.0;

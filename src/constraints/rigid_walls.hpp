@@ -105,6 +105,8 @@ class RigidWalls {
   [[nodiscard]] bool is_point(Index node, const Vec3& normal) const;
   /// As a node of its own.
   [[nodiscard]] bool tested(Index node, const Vec3& normal) const { return !same_cycle_ || !is_point(node, normal); }
+  /// Friction filter: J <- a J + (1 - a) J_old, with this a.
+  [[nodiscard]] double weight_of_new(const model::RigidWall& card, double h_bar) const;
   [[nodiscard]] bool reaches(const state::State& state, Index node, const Vec3& point, const Vec3& normal) const;
 
   const model::Model* model_;
@@ -112,6 +114,7 @@ class RigidWalls {
   const BoundaryConditions* conditions_;
   const ImposedMotions* motions_;
   bool same_cycle_;
+  bool bounded_filter_;
   std::vector<Wall> walls_;
   std::vector<WallSums> sums_;
   std::vector<Point> points_;  ///< of the wall at work

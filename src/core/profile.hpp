@@ -43,6 +43,9 @@ struct Profile {
   /// Moving rigid walls: node and wall exchange momentum in the cycle of impact (plastic impact, momentum conserved); or the
   /// reaction acts one cycle later on the mass of wall and impacted nodes together.
   enum class MovingWall { same_cycle, reference };
+  /// Friction filter of rigid walls by a frequency f (ifq 3): weight of the new force min(1, 2 pi f h), no filter in steps that are too
+  /// long for it; or 2 pi f h, which amplifies there.
+  enum class WallFilter { bounded, reference };
 
   /// Kinetic energy of the balance: the leap-frog form m v(n-1/2).v(n+1/2)/2, whose sum with the potential of a linear
   /// structure is constant to rounding, or m |v(n)|^2/2 with v(n) = v(n-1/2) + h-/2 a(n), which oscillates by h^2 m a^2/8.
@@ -65,6 +68,7 @@ struct Profile {
   RigidBody rigid_body = RigidBody::conserving;
   TetraSpin tetra_spin = TetraSpin::exact;
   MovingWall moving_wall = MovingWall::same_cycle;
+  WallFilter wall_filter = WallFilter::bounded;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -86,6 +90,7 @@ struct Profile {
     p.rigid_body = RigidBody::reference;
     p.tetra_spin = TetraSpin::reference;
     p.moving_wall = MovingWall::reference;
+    p.wall_filter = WallFilter::reference;
     p.reference_contact = true;
     return p;
   }

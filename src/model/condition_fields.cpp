@@ -132,4 +132,19 @@ int integer_in(BlockReader& r, deck::Columns c, std::string_view field, int low,
   return static_cast<int>(value);
 }
 
+double filter_factor(BlockReader& r, deck::Columns c, std::string_view field, int kind, std::string_view kind_field) {
+  constexpr double two_pi = 6.283185307179586476925;
+  const double factor = r.real(c, field, kind == 3 ? dim::rate : dim::none);
+  if (factor < 0.0) r.error("model.out_of_range", c, field, "a filter coefficient cannot be negative; write 0 or more");
+  if (kind == 1 && factor > 1.0) {
+    r.error("model.out_of_range", c, field,
+            fmt::format("with {} 1 this is the share of the new force; write a value between 0 and 1", kind_field));
+  }
+  if (kind == 2 && factor > 0.0 && factor < two_pi) {
+    r.error("model.out_of_range", c, field,
+            fmt::format("with {} 2 this is a period in cycles and must be at least 6.2832 (2 pi): the filter would amplify", kind_field));
+  }
+  return factor;
+}
+
 }  // namespace abut::model

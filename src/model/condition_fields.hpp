@@ -47,6 +47,10 @@ void refuse(Context& c, const deck::Block& block, std::string message);
 /// Integer that must lie in [low, high]; `what_is_right` completes "<value> is not ...".
 [[nodiscard]] int integer_in(BlockReader& r, deck::Columns c, std::string_view field, int low, int high, std::string_view what_is_right);
 
+/// Factor of a friction filter of kind 0 (none), 1 (share of the new force), 2 (period in cycles) or 3 (frequency); one that would
+/// amplify is reported. @param kind_field  where the kind is
+[[nodiscard]] double filter_factor(BlockReader& r, deck::Columns c, std::string_view field, int kind, std::string_view kind_field);
+
 /// Where the deck defines keyword `word` ("INTER") with this id for the `nth` time (0: first); without a line if it does not.
 [[nodiscard]] Place place_of(const Context& c, std::string_view word, Id id, int nth = 0);
 

@@ -101,17 +101,8 @@ void read_coefficients(BlockReader& r, Interface& i) {
 
 void read_filter(BlockReader& r, Interface& i) {
   i.ifiltr = integer_in(r, {11, 20}, "Ifiltr", 0, 3, "a filter; write 0 (none), 1, 2 or 3");
-  i.xfreq = r.real({21, 40}, "Xfreq", i.ifiltr == 3 ? dim::rate : dim::none);
-  if (i.xfreq < 0.0) r.error("model.out_of_range", {21, 40}, "Xfreq", "a filter coefficient cannot be negative; write 0 or more");
+  i.xfreq = filter_factor(r, {21, 40}, "Xfreq", i.ifiltr, "Ifiltr");
   if (i.xfreq == 0.0) i.ifiltr = 0;
-  constexpr double two_pi = 6.283185307179586476925;
-  if (i.ifiltr == 1 && i.xfreq > 1.0) {
-    r.error("model.out_of_range", {21, 40}, "Xfreq", "with Ifiltr 1 this is the share of the new force; write a value between 0 and 1");
-  }
-  if (i.ifiltr == 2 && i.xfreq < two_pi) {
-    r.error("model.out_of_range", {21, 40}, "Xfreq",
-            "with Ifiltr 2 this is a period in cycles and must be at least 6.2832 (2 pi): the filter would amplify");
-  }
 }
 
 Interface start(BlockReader& r) {

@@ -112,7 +112,7 @@ void read_rigid_wall(Context& c, const deck::Block& block) {
   w.friction = r.real({21, 40}, "fric");
   if (w.friction < 0.0) r.error("model.out_of_range", {21, 40}, "fric", "a friction coefficient cannot be negative; write 0 or more");
   w.filter_kind = integer_in(r, {81, 90}, "ifq", 0, 3, "0 (no filter), 1, 2 or 3");
-  w.filter = r.real({61, 80}, "ffac", w.filter_kind == 3 ? dim::rate : dim::none);
+  w.filter = filter_factor(r, {61, 80}, "ffac", w.filter_kind, "ifq");
   if (w.filter == 0.0) w.filter_kind = 0;
   r.next_card();
   if (moving) {

@@ -267,7 +267,7 @@ TEST(RigidBody, LedgerClosesUnderLoads) {
   m.gravities.push_back({.id = 1, .direction = 2, .scale_y = -9.81, .nodes = {0, 1, 2, 3, 4, 5}});
   m.concentrated_loads.push_back({.id = 1, .direction = 1, .scale_y = 3.0, .nodes = {2, 0}});
   m.concentrated_loads.push_back({.id = 2, .direction = 3, .scale_y = 0.4, .nodes = {0, 4}});
-  for (const Profile profile : {Profile::standard(), Profile::reference()}) {
+  for (const Profile& profile : {Profile::standard(), Profile::reference()}) {
     Rig rig(m, 1.0, 0.01, profile);
     set_masses(rig.s);
     rig.s.w[0] = {0.5, 0.2, 1.0};
@@ -303,7 +303,7 @@ TEST(RigidBody, NumericalWorkIsOfSecondOrder) {
 // A heavy node at a distance from a held main node: imposed rotation, as in a centrifuge. Steady rotation at constant speed;
 // the work of starting it is (1/2) J w^2, in the reference's booking of cycle 0 and 1 as well.
 TEST(RigidBody, ImposedRotationOfTheMainNode) {
-  for (const Profile profile : {Profile::standard(), Profile::reference()}) {
+  for (const Profile& profile : {Profile::standard(), Profile::reference()}) {
     auto m = nodes_at({{0, 0, 0}, {1, 0, 0}});
     m.rigid_bodies.push_back(card(1, 0, {1}, 1));
     m.rigid_bodies[0].j_diagonal = {1, 1, 1};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "unit/constraints/rig.hpp"
@@ -143,6 +144,33 @@ TEST(RigidWall, FilteredFrictionApproachesTheForce) {
   EXPECT_NEAR(rig.walls.results()[0].tangential_force.x, 0.25, 1e-14);
   EXPECT_NEAR(rig.s.v[0].x, 0.005 * 0.75, 1e-15);
   EXPECT_NEAR(rig.ledger(), 0.0, 1e-15);
+}
+
+// A filter by a frequency, in steps that are too long for it (2 pi f h = 3): a node slides and stops as without a filter.
+TEST(RigidWall, AFilterOfLongStepsDoesNotAmplify) {
+  auto m = above_a_wall({{0, 0, 0}}, 2, 0.5);
+  m.rigid_walls[0].filter_kind = 3;
+  m.rigid_walls[0].filter = 1500.0 / std::numbers::pi;
+  Rig rig(m);
+  rig.s.v[0] = {1, 0, 0};
+  rig.forces = [](state::State& s) { s.f_contact[0] = {0, 0, -4.0}; };
+  rig.start();
+  for (int n = 0; n < 600; ++n) rig.step(1e-3);
+  EXPECT_NEAR(rig.s.v[0].x, 0.0, 1e-15);
+  EXPECT_NEAR(rig.s.u[0].x, 0.25, 1e-3);  // v0^2 / (2 mu N / m)
+  EXPECT_NEAR(rig.ledger(), 0.0, 1e-12);
+}
+
+// That of the reference profile has no bound: the first force is 1.5 times what would hold the node.
+TEST(RigidWall, ReferenceFilterHasNoBound) {
+  auto m = above_a_wall({{0, 0, 0}}, 2, 10.0);
+  m.rigid_walls[0].filter_kind = 3;
+  m.rigid_walls[0].filter = 150.0 / std::numbers::pi;  // the first kick is half a step
+  Rig rig(m, 1.0, 0.0, Profile::reference());
+  rig.forces = [](state::State& s) { s.f_contact[0] = {1.0, 0, -4.0}; };
+  rig.start();
+  rig.step(0.01);
+  EXPECT_NEAR(rig.walls.results()[0].tangential_force.x, 1.5, 1e-14);
 }
 
 // A free wall of mass 3 at 0.5 is hit by two nodes of mass 1 at -2, one after the other: plastic impacts, momentum conserved. The
