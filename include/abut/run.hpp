@@ -98,7 +98,7 @@ class Run {
   /// @throws RunError when the checkpoint is not one of this model and these choices, or lies where the run's own will be
   [[nodiscard]] static Run load(const Model& model, const std::filesystem::path& checkpoint, const RunSettings& settings = {});
   /// Writes a checkpoint: the whole state, in a file that is complete or not there. It takes the place of a file of that name.
-  /// @throws RunError when it cannot be written, or something else than a file is there; what was there stays
+  /// @throws RunError when it cannot be written, something else than a file is there, or the run has failed; what was there stays
   void save(const std::filesystem::path& checkpoint);
 
   ~Run();  ///< ends the run if finish() was not called; never throws
@@ -108,7 +108,7 @@ class Run {
   // ---- going on ----
   /// One cycle. When the final time is passed the run is finished and its files are complete.
   /// @return false when there was nothing left to do
-  /// @throws RunError when the run fails (not finite, an error limit, a full disk); its files are complete then too
+  /// @throws RunError when the run fails (not finite, an error limit, a full disk, no memory); it is over and its files are complete then
   bool advance();
   /// Cycles until time() > `time`, the end, an interrupt, or a callback that says false.
   /// @param time  of the model; a time that has passed does nothing

@@ -27,6 +27,7 @@ class Cycle::Timer {
 
 // The numbers are the steps of numerics.md 1.2.
 void Cycle::advance(Sink& sink) {
+  under_way_ = true;
   StepLimits limits;
   decide_outputs();
   switch_off_rigid_elements();
@@ -70,6 +71,7 @@ void Cycle::advance(Sink& sink) {
   }
   check_finite();
   integrate();  // 27, 28, 29
+  under_way_ = false;
 }
 
 void Cycle::decide_outputs() {

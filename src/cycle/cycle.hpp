@@ -41,6 +41,8 @@ class Cycle {
   /// Forces at t^n, step, constraints, balance, output, integration to t^(n+1).
   /// @throws RunError when a result is not finite or an error limit of the deck is exceeded
   void advance(Sink& sink);
+  /// An exception has ended a cycle: the state is that of no moment, and no cycle can follow.
+  [[nodiscard]] bool broken_off() const { return under_way_; }
 
   /// The run is over when t > t_end (numerics.md 2.4), a cycle later where an animation state is still due.
   [[nodiscard]] bool finished() const { return state_.times.t > model_.controls.t_end && !animation_left(); }
@@ -144,6 +146,7 @@ class Cycle {
   bool history_written_ = false;  ///< in the cycle before
   bool history_due_ = false, animation_due_ = false, listing_due_ = false;
   bool begun_ = false;
+  bool under_way_ = false;  ///< a cycle has begun and not come to its end
   bool eroded_ = false;
   std::optional<init::FaceOwners> face_owners_;  // once an element of a model with pressures is gone
   double scaled_energy_ = 0.0;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -93,6 +94,11 @@ run::CheckpointInfo Run::Impl::checkpoint_info() {
 }
 
 void Run::Impl::save(const std::filesystem::path& path, const std::filesystem::path& previous) {
+  if (cycle->broken_off()) {
+    throw RunError(
+        fmt::format("'{}' is not written: the run broke off within cycle {}, and what it left there is not a state to go on from",
+                    path.string(), cycle->state().times.cycle));
+  }
   output::DurableFile file(path);
   state::Sealer sealer([&file](std::span<const std::byte> piece) {
     file.write({reinterpret_cast<const char*>(piece.data()), piece.size()});
@@ -149,7 +155,7 @@ void Run::Impl::keep_checkpoint() {
   const output::RunFolder folder{settings.output, model.name()};
   try {
     save(folder.checkpoint(), folder.previous_checkpoint());
-  } catch (const RunError& error) {
+  } catch (const std::exception& error) {
     if (std::exchange(told_checkpoint, true)) return;
     // The run itself is well: it goes on, and the checkpoint that is there stays.
     tell("run.no_checkpoint", fmt::format("at time {:.6g} (cycle {}): no checkpoint was written: {}", cycle->state().times.t,

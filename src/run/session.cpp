@@ -5,6 +5,8 @@
 #include <abut_commit.hpp>  // written by cmake/AbutCommit.cmake
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <new>
 #include <set>
 #include <string>
 #include <thread>
@@ -159,9 +161,9 @@ bool Run::Impl::advance() {
   }
   try {
     cycle->advance(sinks);
-  } catch (const RunError& error) {
-    finish(Outcome::Kind::failed, error.what());
-    throw;
+  } catch (const std::exception& error) {
+    const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    fail(memory ? "there is not enough memory" : error.what());
   }
   if (cycle->finished()) {
     finish(Outcome::Kind::finished, "the final time is reached");
@@ -186,13 +188,18 @@ const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
   const std::optional<output::FolderLock> until_the_files_end = std::exchange(lock, {});
   try {
     sinks.end(outcome);
-  } catch (const RunError& error) {
+  } catch (const std::exception& error) {
     if (kind == Outcome::Kind::failed) return outcome;  // the first failure is the one that counts
     outcome.kind = Outcome::Kind::failed;
     outcome.message = error.what();
-    throw;
+    throw RunError(outcome.message);
   }
   return outcome;
+}
+
+void Run::Impl::fail(std::string_view message) {
+  finish(Outcome::Kind::failed, message);
+  throw RunError(outcome.message);
 }
 
 std::string version_text() {

@@ -86,7 +86,8 @@ struct Run::Impl {
   void open_outputs();
   void restore_outputs(run::Checkpoint& from, bool resume);
   void keep_checkpoint();
-  [[nodiscard]] int checkpoint_every() const;  ///< cycles; 0: never
+  [[noreturn]] void fail(std::string_view message);  ///< ends the run and throws
+  [[nodiscard]] int checkpoint_every() const;        ///< cycles; 0: never
   [[nodiscard]] run::CheckpointInfo checkpoint_info();
 
   std::vector<cycle::Sink*> watches_;

@@ -128,7 +128,8 @@ void bind_making(RunClass& run) {
           "folder; InputError of the deck.")
       .def("save", &save_run, "checkpoint"_a,
            "Writes a checkpoint: the whole state, in a file that is complete or not there, in the place of a file of that name.\n\n"
-           "Raises RunError when it cannot be written, or when something else than a file is there (a folder, a device).");
+           "Raises RunError when it cannot be written, when something else than a file is there (a folder, a device), or when the run has\n"
+           "failed: what it left within its last cycle is not a state to go on from.");
 }
 
 }  // namespace abut::python

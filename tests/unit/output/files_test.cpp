@@ -1,13 +1,11 @@
 // Files appear whole or not at all, grow by whole pieces, and failures name the path and the reason.
 #include "output/files.hpp"
 
-#include <sys/resource.h>
 #include <sys/stat.h>
-
-#include <csignal>
 
 #include "core/diagnostic.hpp"
 #include "scene.hpp"
+#include "support/size_limit.hpp"
 
 namespace abut::output {
 namespace {
@@ -17,26 +15,6 @@ using test::slurp;
 std::size_t entries(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
-
-/// Files of this process may not grow beyond `bytes` while this lives: a full disk for whoever writes.
-class SizeLimit {
- public:
-  explicit SizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SizeLimit(const SizeLimit&) = delete;
-  SizeLimit& operator=(const SizeLimit&) = delete;
-
- private:
-  rlimit old_{};
-  void (*handler_)(int);
-};
 
 TEST(WriteAtomically, ReplacesTheWholeContentAndLeavesNothingElse) {
   const test::TemporaryFolder folder;

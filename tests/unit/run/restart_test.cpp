@@ -1,6 +1,5 @@
 // Checkpoints: a run that goes on has the bits of one that never stopped; a file that is not whole, or not of this model, is refused.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "state/archive.hpp"
 #include "state/checkpoint.hpp"
 #include "unit/model/deck_text.hpp"
+#include "unit/run/folder.hpp"
 
 namespace abut {
 namespace {
@@ -25,22 +25,6 @@ using model::base_deck::base_starter;
 using model::base_deck::integers;
 using model::base_deck::reals;
 using model::base_deck::with_line;
-
-class Folder {
- public:
-  Folder()
-      : path_(std::filesystem::temp_directory_path() / ("abut_restart_" + std::to_string(::getpid()) + "_" + std::to_string(count_++))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
-
- private:
-  static inline int count_ = 0;
-  std::filesystem::path path_;
-};
 
 void put(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
