@@ -85,8 +85,8 @@ class Run {
   /// Inspects the contacts, makes the first state, opens the files.
   /// What an earlier run of the same name has left in the run folder goes: checkpoints, manifest, report, call logs.
   /// @throws InputError when the inspection finds errors (unless they are allowed); RunError when a file cannot be written, when another
-  ///         run that is not over writes in the folder, or a recording or choice is of an interface that is not there or cannot have it, or
-  ///         a recording asked for twice or without a run folder
+  ///         run that is not over writes in the folder, the system does not give so many threads, or a recording or choice is of an
+  ///         interface that is not there or cannot have it, or a recording asked for twice or without a run folder
   explicit Run(const Model& model, const RunSettings& settings = {});
   /// Goes on from the newest whole checkpoint of a run folder, with its files (docs/guide/restart.md): the same bits as if it had never
   /// stopped. When the run is finished, the next Engine deck takes over.

@@ -290,11 +290,19 @@ void Animation::cycle(const cycle::Snapshot& now) {
   const model::Model* with_surfaces = times_.empty() && !now.model->interfaces.empty() ? now.model : nullptr;
   auto taken = std::make_unique<Taken>(now);
   times_.push_back(now.state->times.t);
-  writer_ = std::async(std::launch::async, [this, with_surfaces, state = std::move(taken), times = times_]() mutable {
-              write_vtu(folder_.animation_state(static_cast<int>(times.size()) - 1), Taken::grid(std::move(state)));
-              write_index(times);
-              if (with_surfaces != nullptr) write_vtu(folder_.contact_surfaces(), contact_surfaces(*with_surfaces));
-            }).share();
+  auto write = [this, with_surfaces, state = std::move(taken), times = times_]() mutable {
+    write_vtu(folder_.animation_state(static_cast<int>(times.size()) - 1), Taken::grid(std::move(state)));
+    write_index(times);
+    if (with_surfaces != nullptr) write_vtu(folder_.contact_surfaces(), contact_surfaces(*with_surfaces));
+  };
+  try {
+    writer_ = std::async(std::launch::async, std::move(write)).share();
+  } catch (const std::system_error& error) {
+    throw RunError(
+        fmt::format("cannot make the thread that writes the animation ({}); raise the limit of processes or of memory "
+                    "(ulimit -u, ulimit -v)",
+                    error.what()));
+  }
 }
 
 void Animation::wait_for_writer() {

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "abut/diagnostic.hpp"
+
 namespace abut::parallel {
 
 namespace {
@@ -91,6 +93,13 @@ struct ThreadPool::Impl {
   std::atomic<bool> quit{false};
 
   explicit Impl(std::size_t threads) : loops{Loop(threads), Loop(threads)} {}
+  ~Impl() {
+    quit.store(true, std::memory_order_release);
+    wake(start);
+    for (std::thread& t : workers) t.join();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   template <class Ready>
   void wait(std::condition_variable& signal, Ready ready) {
@@ -172,16 +181,17 @@ ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>(static_cast<s
   // Some 100 us, longer than what a cycle of a large model does on one thread between two loops: waking up costs as much. With more threads
   // than processors whoever waits awake keeps others from working.
   if (threads <= static_cast<int>(std::thread::hardware_concurrency())) impl_->patience = 5000;
-  for (int i = 1; i < threads; ++i) {
-    impl_->workers.emplace_back([this, i] { impl_->work(static_cast<std::size_t>(i)); });
+  try {
+    for (int i = 1; i < threads; ++i) {
+      impl_->workers.emplace_back([pool = impl_.get(), i] { pool->work(static_cast<std::size_t>(i)); });
+    }
+  } catch (const std::exception& why) {
+    throw RunError("cannot make " + std::to_string(threads) + " threads, only " + std::to_string(this->threads()) + " (" + why.what() +
+                   "); ask for fewer, or raise the limit of processes or of memory (ulimit -u, ulimit -v)");
   }
 }
 
-ThreadPool::~ThreadPool() {
-  impl_->quit.store(true, std::memory_order_release);
-  impl_->wake(impl_->start);
-  for (std::thread& t : impl_->workers) t.join();
-}
+ThreadPool::~ThreadPool() = default;
 
 int ThreadPool::threads() const { return static_cast<int>(impl_->workers.size()) + 1; }
 

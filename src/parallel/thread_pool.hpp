@@ -16,7 +16,7 @@ inline constexpr int most_threads = 4096;
 class ThreadPool {
  public:
   /// @param threads number of threads that work, the caller included; at least 1
-  /// @throws std::invalid_argument for more than most_threads
+  /// @throws std::invalid_argument for more than most_threads; RunError when the system does not give so many
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;

@@ -8,7 +8,7 @@ ABUT is the program, DECK a Starter deck that has no errors, with its Engine dec
 - kill -9 at N random moments, of runs and of resumed runs, on changing numbers of threads: what is in the folder is readable,
   and the run that goes on ends with the time history, the animation and the state hashes of the run that was never stopped;
 - a disk that is full during a checkpoint, and during the time history: a limit on the size of files, and (as root, or where users may make
-  namespaces) a file system that is really full;
+  namespaces) a file system that is really full; a system that makes no threads;
 - checkpoints cut off and with flipped bits: the one before is taken, or a clear refusal;
 - checkpoints of another model, of a changed Engine deck, of another version: refused, and the folder stays as it is;
 - a chain of Engine decks NAME_0001, NAME_0002 ends in the state of one run to the same time: run at once, and by `abut resume` with kills
@@ -217,6 +217,17 @@ def full_disk(case):
     expect(result.returncode == 0, "with room again the run goes on", result)
     case.expect_same(folder, "after a full disk")
     print("a full disk does no harm")
+
+
+def no_threads(case):
+    """Stacks that no memory is large enough for: the system makes no thread but the first."""
+    hard = resource.getrlimit(resource.RLIMIT_STACK)[1]
+    if hard != resource.RLIM_INFINITY:
+        print("a system without threads: left out, the size of a stack is limited here")
+        return
+    folder = os.path.join(case.folder, "no_threads")
+    result = case.run(folder, threads=1, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, (1 << 42, hard)))
+    expect(result.returncode == 0 or "cannot make the thread that writes the animation" in result.stderr, "a missing thread is named", result)
 
 
 # Ends with 0, 1 (abut's), or 77: no file system can be mounted here. $1: its size in kB, $2: the folder, then the command.
@@ -451,6 +462,7 @@ def main():
         at_the_last_moment(case)
         full_disk(case)
         small_disk(case)
+        no_threads(case)
         damages(case, arguments.damages)
         others(case)
         chain(case, max(2, arguments.kills // 5))

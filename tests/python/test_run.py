@@ -1,6 +1,7 @@
 """Runs: going on, looking, changing, stopping; nothing leaks and nothing blocks."""
 import gc
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -401,6 +402,16 @@ def test_a_file_in_the_way_is_a_run_error(tmp_path):
 def test_settings_that_are_refused(arguments, words):
     with pytest.raises(ValueError, match=words):
         abut.Run(two_blocks().build(), **arguments)
+
+
+def test_threads_that_cannot_be_made_are_a_run_error():
+    """In a process with memory for the stacks of a few threads."""
+    script = ("import resource, abut, support; model = support.two_blocks().build()\n"
+              "size = 100_000_000 + resource.getpagesize() * int(open('/proc/self/statm').read().split()[0])\n"
+              "resource.setrlimit(resource.RLIMIT_AS, (size, size)); abut.Run(model, threads=1000)")
+    done = subprocess.run([sys.executable, "-c", script], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+                          capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "RunError: cannot make 1000 threads, only " in done.stderr, done.stderr
 
 
 def test_recorded_contact_is_replayed(tmp_path):

@@ -111,9 +111,9 @@ void bind_making(RunClass& run) {
           "hash_every: cycles between state hashes in run.json. allow_findings: run although the inspection found errors.\n"
           "record_contact: {interface id: (from, to) or None} keeps all inputs of an interface between two times, or all the time, in\n"
           "NAME_contact_ID.calls in the run folder, for contact.replay().\n"
-          "Raises InputError when it did; RunError when a file cannot be written, and when `interfaces` or\n"
-          "`record_contact` names an interface that is not there or asks for what it cannot have; ValueError for another argument out of\n"
-          "its range.")
+          "Raises InputError when it did; RunError when a file cannot be written, when the system does not give so many threads, and when\n"
+          "`interfaces` or `record_contact` names an interface that is not there or asks for what it cannot have; ValueError for another\n"
+          "argument out of its range.")
       .def_static("load", &load_run, "model"_a, "checkpoint"_a, py::kw_only(), "threads"_a = 0, "rules"_a = "standard",
                   "interfaces"_a = InterfaceSettings{}, "output"_a = py::none(), "checkpoint_every"_a = 0, "hash_every"_a = 0,
                   "record_history"_a = true, "progress"_a = false, "allow_findings"_a = false, "record_contact"_a = Recordings{},

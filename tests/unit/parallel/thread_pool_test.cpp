@@ -3,6 +3,8 @@
 #include "parallel/thread_pool.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +12,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <mutex>
 #include <random>
 #include <stdexcept>
@@ -17,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/diagnostic.hpp"
 #include "parallel/ordered_sum.hpp"
 
 namespace abut::parallel {
@@ -43,6 +49,31 @@ TEST(ThreadPool, MoreThreadsThanTheLimitAreRefused) {
     FAIL() << "4097 threads were started";
   } catch (const std::invalid_argument& error) { EXPECT_STREQ(error.what(), "threads is 4097, expected at most 4096"); }
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory is not for limits
+/// In a process of its own: a pool of 1000 threads where there is memory for the stacks of a few more.
+[[noreturn]] void make_too_many() {
+  ::alarm(20);
+  long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const auto bytes = static_cast<rlim_t>(pages * ::sysconf(_SC_PAGESIZE)) + 100'000'000;
+  const rlimit limit{bytes, bytes};
+  ::setrlimit(RLIMIT_AS, &limit);
+  try {
+    const ThreadPool pool(1000);
+  } catch (const RunError& error) {
+    std::fprintf(stderr, "%s", error.what());
+    std::exit(3);
+  }
+  std::exit(4);
+}
+
+// Those that were made end, and the message says what to do.
+TEST(ThreadPool, ThreadsThatCannotBeMadeAreAnError) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(make_too_many(), testing::ExitedWithCode(3), "cannot make 1000 threads, only [1-9][0-9]? \\(.*\\); ask for fewer");
+}
+#endif
 
 // Sorted, no range empty, each begins where the one before ends: every index of [0, count) once.
 TEST(ThreadPool, RangesCoverEveryIndexOnce) {
