@@ -103,7 +103,7 @@ class Run {
 
   ~Run();  ///< ends the run if finish() was not called; never throws
   Run(Run&&) noexcept;
-  Run& operator=(Run&&) noexcept;
+  Run& operator=(Run&&) noexcept;  ///< ends the run that was here, as ~Run
 
   // ---- going on ----
   /// One cycle. When the final time is passed the run is finished and its files are complete.

@@ -17,7 +17,11 @@ namespace abut {
 Run::Run(const Model& model, const RunSettings& settings) : impl_(std::make_unique<Impl>(model, settings)) {}
 Run::Run(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Run::Run(Run&&) noexcept = default;
-Run& Run::operator=(Run&&) noexcept = default;
+Run& Run::operator=(Run&& other) noexcept {
+  Run old(std::move(other));
+  impl_.swap(old.impl_);
+  return *this;
+}
 
 Run::~Run() {
   if (impl_ == nullptr) return;

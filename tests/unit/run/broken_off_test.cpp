@@ -94,5 +94,17 @@ TEST(BrokenOff, AFailedRunIsNotSaved) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("base.rst")));
 }
 
+// ~Run ends a run that goes on; so does the run that takes its place.
+TEST(BrokenOff, AnotherRunInItsPlaceEndsTheFirst) {
+  const Folder folder;
+  const Model model = Model::from_text({.starter = base_starter, .engines = {base_engine}, .name = "base"});
+  abut::Run run(model, settings_in(folder.file("a")));
+  run.advance();
+  run = abut::Run(model, settings_in(folder.file("b")));
+  EXPECT_NE(text_of(folder.file("a") / "run.json").find("stopped by the caller"), std::string::npos);
+  EXPECT_EQ(run.output(), folder.file("b"));
+  EXPECT_TRUE(run.advance());
+}
+
 }  // namespace
 }  // namespace abut
