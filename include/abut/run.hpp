@@ -128,7 +128,9 @@ class Run {
   [[nodiscard]] double step() const;                       ///< the last one; 0 before the first cycle
   [[nodiscard]] double force_time() const;                 ///< t of forces and energies
   [[nodiscard]] const StepController& controller() const;  ///< who gave step()
-  [[nodiscard]] std::uint64_t hash() const;                ///< over every bit of the state that influences the future
+  /// Over time, last step, and positions, velocities and masses of nodes, histories of elements and of contacts: what differs in two runs
+  /// and is not of these (docs/determinism.md names it) shows here once it has acted on them.
+  [[nodiscard]] std::uint64_t hash() const;
 
   // ---- nodes: #N (by 3), order of Model::node_ids(); views of the present state that live as long as the run ----
   /// Lengths at time(). Positions cannot be changed: stresses and the anchors of friction are sums over the way that nodes have gone,

@@ -65,7 +65,9 @@ class Cycle {
   /// Everything that the next cycles depend on and that their outputs accumulate, between two cycles (cycle/persist.cpp). A cycle
   /// made from the same model that reads what another one wrote goes on with the same bits.
   void persist(state::Archive& a);
-  /// Hash over every bit of the state that influences the future.
+  /// Hash over t, the last step, x, v, w and mass of nodes, and the histories of elements and contacts. Not in it, but in persist():
+  /// inertia, forces, bodies, walls, conditions, motions, loads, the controls of the step, balance, outputs, and changes that wait to be
+  /// taken over.
   [[nodiscard]] std::uint64_t hash();
 
  private:

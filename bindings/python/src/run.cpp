@@ -142,7 +142,8 @@ void bind_state(RunClass& run) {
       .def_property_readonly(
           "controller", [](const HeldRun& self) { return self.idle().controller(); }, "who gave the step")
       .def_property_readonly(
-          "state_hash", [](const HeldRun& self) { return self.idle().hash(); }, "over every bit of the state that influences the future");
+          "state_hash", [](const HeldRun& self) { return self.idle().hash(); },
+          "over time, last step, positions, velocities and masses of nodes, histories of elements and of contacts");
   points_of("positions", &Run::positions,
             "(N, 3) lengths at `time`; a read-only view.\n\n"
             "Between cycles velocities can be changed, positions cannot: stresses and the anchors of friction are sums over the way that\n"
