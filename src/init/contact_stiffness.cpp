@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "simd/math.hpp"
+
 namespace abut::init {
 
 namespace {
@@ -132,7 +134,7 @@ std::vector<double> secondary_stiffness(const model::Model& model, std::span<con
   for (const Index node : nodes) {
     const auto i = static_cast<std::size_t>(node);
     double k = shells[i] > 0 ? et[i] / shells[i] : 0.0;
-    if (volume[i] > 0.0) k += bulk_volume[i] / volume[i] * std::cbrt(2.0 * volume[i]);
+    if (volume[i] > 0.0) k += bulk_volume[i] / volume[i] / simd::inverse_cube_root(2.0 * volume[i]);
     out.push_back(k);
   }
   return out;

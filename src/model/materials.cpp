@@ -1,10 +1,9 @@
 // /MAT: LAW0, LAW1, LAW2 (deck-format.md B.8, B.9, B.12; numerics.md 5.1, 5.2).
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "model/mesh.hpp"
 #include "model/sort_by_id.hpp"
+#include "simd/math.hpp"
 
 namespace abut::model {
 
@@ -85,7 +84,7 @@ void derive_hardening(BlockReader& r, LawJohnsonCook& law, double ultimate_stres
     return;
   }
   const double stress = ultimate_stress * (1.0 + ultimate_strain);
-  const double strain = std::log(1.0 + ultimate_strain);
+  const double strain = simd::log(1.0 + ultimate_strain);
   if (!(stress > law.a)) {
     r.warning("model.hardening", {21, 40}, "UTS",
               fmt::format("the true ultimate stress {:g} is not above the yield stress {:g}: no hardening is assumed", stress, law.a));
@@ -93,7 +92,7 @@ void derive_hardening(BlockReader& r, LawJohnsonCook& law, double ultimate_stres
     return;
   }
   law.n = stress * strain / (stress - law.a);
-  law.b = stress / (law.n * std::pow(strain, law.n - 1.0));
+  law.b = stress / (law.n * simd::pow(strain, law.n - 1.0));
   if (law.n > 1.0) {
     law.n = 1.0;
     const double plastic = strain - stress / law.young - law.a / law.young;

@@ -1,4 +1,4 @@
-// log, exp, pow and an arctangent over the number types: the same bits for double and for every Pack width, on every CPU.
+// log, exp, pow and an arctangent over the number types, and a cube root: the same bits for double and for every Pack width, on every CPU.
 //
 // Only + - * /, comparison and operations on the bits of a double are used, so that the result does not depend on libm
 // or on the instruction set. Method: x = 2^k m with m in [sqrt(1/2), sqrt(2)), ln(m) = 2 atanh((m - 1)/(m + 1)) by its series, e^r by its
@@ -132,6 +132,18 @@ ABUT_INLINE T pow(T x, T y) {
   const T at_infinity = select(y > zero, inf, select(y < zero, zero, T(1.0)));
   const T special = select(x < zero, inf - inf, select(x < smallest, at_zero, select(x >= inf, at_infinity, x)));
   return select(proper, value, special);
+}
+
+/// x^(-1/3) of a normal number x > 0: x = r 2^(3 n) with r in [1/2, 4), then Newton's steps y -> y (4 - r y^3)/3.
+ABUT_INLINE double inverse_cube_root(double x) {
+  const std::uint64_t bits = to_bits(x);
+  const int exponent = static_cast<int>(bits >> 52) - 1022;
+  const int n = exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
+  const double m = from_bits(x, (bits & std::uint64_t{0x000fffffffffffffULL}) | std::uint64_t{0x3fe0000000000000ULL});  // in [1/2, 1)
+  const double r = m * static_cast<double>(1 << (exponent - 3 * n));
+  double y = 0.8;
+  for (int i = 0; i < 60; ++i) y = y * (4.0 - r * y * y * y) * (1.0 / 3.0);
+  return y * from_bits(x, static_cast<std::uint64_t>(1023 - n) << 52);
 }
 
 /// Angle of the point (x, y) from the x axis, 0 to pi, for y >= 0; 0 at the origin. atan2 of a finite y >= 0 to about 5e-16 relative:

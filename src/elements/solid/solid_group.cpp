@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/diagnostic.hpp"
+#include "simd/math.hpp"
 
 namespace abut::elements {
 
@@ -67,16 +68,6 @@ void set_material(SolidConfig& c, const model::Material& material, const model::
 }
 
 }  // namespace
-
-double inverse_cube_root(double v) {
-  int exponent = 0;
-  const double m = std::frexp(v, &exponent);  // v = m 2^exponent, m in [1/2, 1)
-  const int third = exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
-  const double r = std::ldexp(m, exponent - 3 * third);  // in [1/2, 4)
-  double y = 0.8;
-  for (int i = 0; i < 60; ++i) y = y * (4.0 - r * y * y * y) * (1.0 / 3.0);
-  return std::ldexp(y, -third);
-}
 
 SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel kernel)
     : nodes_per_element_(nodes_per_element), kernel_(kernel) {
@@ -160,7 +151,7 @@ void SolidGroup::set_up(const std::vector<Vec3>& x, std::span<const Index> eleme
     const double volume = g.volume > 0.0 ? g.volume : 1e-30;
     const double mass = density_ * volume;
     at(id, f_volume) = volume;
-    at(id, f_inverse_length) = inverse_cube_root(volume);
+    at(id, f_inverse_length) = simd::inverse_cube_root(volume);
     at(id, f_density) = density_;
     at(id, f_pressure) = std::max(c.p_min, c.bulk * (density_ / c.rho_0 - 1.0));
     at(id, f_mass) = mass;

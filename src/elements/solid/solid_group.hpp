@@ -66,7 +66,4 @@ class SolidGroup : public Group {
   void share_masses() const;
 };
 
-/// V^(-1/3) for V > 0, without libm.
-[[nodiscard]] double inverse_cube_root(double v);
-
 }  // namespace abut::elements

@@ -1,6 +1,9 @@
 // A surface's own stiffness per segment, from the model (T16, T17, T18; numerics.md 7.2.3).
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "init/contact_stiffness.hpp"
 
 namespace abut::init {
@@ -45,6 +48,17 @@ TEST(SegmentStiffness, T17_brick_face) {
 TEST(SegmentStiffness, T16_T18_shell) {
   for (const double size : {0.01, 1.0, 100.0})
     EXPECT_DOUBLE_EQ(CoatedBrick(size, 2 * size, 1.0).stiffness(model::ElementKind::shell4), 0.5);
+}
+
+// A node of TYPE7's surface: B (2 V)^(1/3), V its eighth of the brick, and E t of the shells at it.
+TEST(NodeStiffness, OfANodeOfASolidWithAShell) {
+  for (const Vec3 size : {Vec3{1, 1, 4}, Vec3{2, 3, 0.5}, Vec3{1e-3, 2e-3, 3e-3}}) {
+    const CoatedBrick brick(size.x, size.y, size.z);
+    const double solid = 4.0 * std::cbrt(size.x * size.y * size.z / 4.0);
+    const std::vector<double> k = secondary_stiffness(brick.m, std::vector<Index>{0, 4}, brick.m.node_x);
+    EXPECT_NEAR(k[0], solid, 4e-15 * solid);
+    EXPECT_NEAR(k[1], solid + 0.5, 4e-15 * (solid + 0.5));
+  }
 }
 
 /// A block of E = 6, nu = 0.25 (bulk modulus 4) on the corners of a unit cube, in the form the reader gives to degenerate solids.

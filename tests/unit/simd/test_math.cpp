@@ -75,6 +75,18 @@ TEST(Math, PowIsAccurateTo4e16TimesOnePlusTheExponent) {
   EXPECT_LT(worst, 4e-16L);
 }
 
+TEST(Math, InverseCubeRootIsAccurateTo4e16Relative) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> exponent(-307.0, 307.0);
+  std::vector<double> x{1.0, 0.5, 2.0, 4.0, 8.0, 0.125, 0x1p-1022, 0x1.fffffffffffffp1023};
+  for (int i = 0; i < 100000; ++i) x.push_back(std::pow(10.0, exponent(random)));
+  long double worst = 0.0L;
+  for (const double v : x)
+    worst = std::max(worst, relative_error(abut::simd::inverse_cube_root(v), 1.0L / std::cbrt(static_cast<long double>(v))));
+  RecordProperty("worst_relative_error", std::to_string(1e16 * static_cast<double>(worst)));
+  EXPECT_LT(worst, 4e-16L);
+}
+
 // Up to the ends of the range: no step where the scale is put together, nothing where numbers would be subnormal.
 TEST(Math, PowReachesTheEndsOfTheRange) {
   for (const double x : {1e-300, 0.3, 1.7, 1e300}) {
