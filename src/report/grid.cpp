@@ -1,6 +1,7 @@
 #include "report/grid.hpp"
 
 #include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
@@ -40,6 +41,13 @@ std::optional<Shape> shape_of(int vtk_type) {
   }
 }
 
+vtkIdType corners_of(Shape shape) {
+  static constexpr vtkIdType count[] = {3, 4, 4, 5, 6, 8};
+  return count[static_cast<std::size_t>(shape)];
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const char* why) { throw RunError(file.string() + ": " + why); }
+
 void read(vtkXMLUnstructuredGridReader* reader, const std::filesystem::path& file, bool with_fields) {
   // What VTK says of a damaged file comes here instead of onto the console.
   bool faulty = false;
@@ -52,7 +60,7 @@ void read(vtkXMLUnstructuredGridReader* reader, const std::filesystem::path& fil
     reader->AddObserver(said, fault);
     reader->GetExecutive()->AddObserver(said, fault);
   }
-  if (reader->CanReadFile(file.c_str()) == 0) throw RunError(file.string() + ": not a readable animation state");
+  if (reader->CanReadFile(file.c_str()) == 0) refuse(file, "not a readable animation state");
   reader->SetFileName(file.c_str());
   reader->UpdateInformation();
   if (!with_fields) {
@@ -69,8 +77,36 @@ void read(vtkXMLUnstructuredGridReader* reader, const std::filesystem::path& fil
   reader->Update();
   reader->RemoveObserver(fault);
   reader->GetExecutive()->RemoveObserver(fault);
-  if (faulty || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) throw RunError(file.string() + ": damaged animation state");
+  if (faulty || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) refuse(file, "damaged animation state");
+  vtkCellArray* cells = reader->GetOutput()->GetCells();
+  if (cells != nullptr && !cells->IsValid()) refuse(file, "damaged animation state");
 }
+
+/// Shape and nodes of each cell. VTK hands on what the file says: numbers of corners and nodes are checked here.
+class CellReader {
+ public:
+  CellReader(vtkUnstructuredGrid* from, const std::filesystem::path& file) : from_(from), file_(file) {}
+  Shape next() {
+    const std::optional<Shape> shape = shape_of(from_->GetCellType(cell_));
+    if (!shape) refuse(file_, "a cell of a kind that abut does not write");
+    from_->GetCellPoints(cell_++, corners_);
+    if (corners_->GetNumberOfIds() != corners_of(*shape)) refuse(file_, "a cell with a wrong number of corners");
+    for (const vtkIdType node : *corners_) {
+      if (node < 0 || node >= from_->GetNumberOfPoints()) refuse(file_, "a cell with a corner that is no point of the file");
+    }
+    return *shape;
+  }
+  /// A number beyond the last corner gives the last.
+  [[nodiscard]] Index corner(int k) const {
+    return static_cast<Index>(corners_->GetId(std::min<vtkIdType>(k, corners_->GetNumberOfIds() - 1)));
+  }
+
+ private:
+  vtkUnstructuredGrid* from_;
+  const std::filesystem::path& file_;
+  vtkNew<vtkIdList> corners_;
+  vtkIdType cell_ = 0;
+};
 
 std::vector<Id> ids(vtkDataSetAttributes* attributes, const char* name) {
   std::vector<Id> out;
@@ -123,17 +159,12 @@ Grid read_grid(const std::filesystem::path& file, bool with_fields) {
   const std::vector<Id> element = ids(from->GetCellData(), "element_id");
   const std::vector<Id> part = ids(from->GetCellData(), "part_id");
   const auto count = static_cast<std::size_t>(from->GetNumberOfCells());
-  if (element.size() != count || part.size() != count) throw RunError(file.string() + ": no element_id or part_id");
+  if (element.size() != count || part.size() != count) refuse(file, "no element_id or part_id");
   grid.cells.reserve(count);
-  vtkNew<vtkIdList> corners;
+  CellReader cells(from, file);
   for (std::size_t c = 0; c < count; ++c) {
-    const std::optional<Shape> shape = shape_of(from->GetCellType(static_cast<vtkIdType>(c)));
-    if (!shape) throw RunError(file.string() + ": a cell of a kind that abut does not write");
-    from->GetCellPoints(static_cast<vtkIdType>(c), corners);
-    Cell cell{*shape, {}, element[c], part[c]};
-    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
-      cell.nodes[static_cast<std::size_t>(k)] = static_cast<Index>(corners->GetId(k));
-    }
+    Cell cell{cells.next(), {}, element[c], part[c]};
+    for (int k = 0; k < corners_of(cell.shape); ++k) cell.nodes[static_cast<std::size_t>(k)] = cells.corner(k);
     grid.cells.push_back(cell);
   }
   if (with_fields) {
@@ -143,28 +174,25 @@ Grid read_grid(const std::filesystem::path& file, bool with_fields) {
   return grid;
 }
 
-std::vector<ContactSurface> read_contact_surfaces(const std::filesystem::path& file) {
+std::vector<ContactSurface> read_contact_surfaces(const std::filesystem::path& file, const std::vector<Id>& node_id) {
   std::vector<ContactSurface> out;
   if (!std::filesystem::exists(file)) return out;
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   read(reader, file, false);
   vtkUnstructuredGrid* from = reader->GetOutput();
+  if (ids(from->GetPointData(), "node_id") != node_id) refuse(file, "its nodes are not those of the animation");
   const std::vector<Id> interface = ids(from->GetCellData(), "interface_id");
   const std::vector<Id> surface = ids(from->GetCellData(), "surface_id");
   const std::vector<Id> side = ids(from->GetCellData(), "side");
   const auto count = static_cast<std::size_t>(from->GetNumberOfCells());
-  if (interface.size() != count || surface.size() != count || side.size() != count) throw RunError(file.string() + ": arrays are missing");
-  vtkNew<vtkIdList> corners;
+  if (interface.size() != count || surface.size() != count || side.size() != count) refuse(file, "arrays are missing");
+  CellReader cells(from, file);
   for (std::size_t c = 0; c < count; ++c) {
     if (out.empty() || out.back().interface != interface[c] || out.back().side != side[c]) {
       out.push_back({interface[c], surface[c], static_cast<int>(side[c]), {}});
     }
-    from->GetCellPoints(static_cast<vtkIdType>(c), corners);
-    std::array<Index, 4> segment{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      segment[k] = static_cast<Index>(corners->GetId(std::min<vtkIdType>(static_cast<vtkIdType>(k), corners->GetNumberOfIds() - 1)));
-    }
-    out.back().segments.push_back(segment);
+    if (cells.next() > Shape::quadrilateral) refuse(file, "a cell of a kind that abut does not write");
+    out.back().segments.push_back({cells.corner(0), cells.corner(1), cells.corner(2), cells.corner(3)});
   }
   return out;
 }

@@ -41,7 +41,7 @@ struct Grid {
 };
 
 /// @param with_fields  false: points and cells only
-/// @throws RunError when the file cannot be read as a VTK unstructured grid
+/// @throws RunError when the file cannot be read as a VTK unstructured grid whose cells and fields fit its points
 [[nodiscard]] Grid read_grid(const std::filesystem::path& file, bool with_fields = true);
 
 /// Contact surfaces of a run (NAME_contact.vtu): segments by node, in the order of interface, side.
@@ -50,7 +50,7 @@ struct ContactSurface {
   int side = 1;                                ///< 1 first, 2 second surface of the card
   std::vector<std::array<Index, 4>> segments;  ///< a triangle repeats its third node
 };
-/// Empty when there is no such file. @throws RunError when it cannot be read
-[[nodiscard]] std::vector<ContactSurface> read_contact_surfaces(const std::filesystem::path& file);
+/// Empty when there is no such file. @throws RunError when it cannot be read, or its nodes are not `node_id`
+[[nodiscard]] std::vector<ContactSurface> read_contact_surfaces(const std::filesystem::path& file, const std::vector<Id>& node_id);
 
 }  // namespace abut::report

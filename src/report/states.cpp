@@ -25,7 +25,8 @@ struct Shown {
   std::string name;
   bool on_nodes = true;
   int components = 1;
-  std::string source;                                      ///< field of the animation
+  std::string source;  ///< field of the animation
+  int source_components = 1;
   std::function<void(const float* from, float* to)> make;  ///< one value; none: as it is
 };
 
@@ -38,32 +39,33 @@ constexpr double many_values = 4e6;
 std::vector<Shown> choose_fields(const Grid& first, bool all) {
   std::vector<Shown> shown;
   const auto length = [](const float* from, float* to) { *to = length_of(from); };
-  const auto add = [&](bool on_nodes, const char* source, const char* name, int components, auto make) {
+  const auto add = [&](bool on_nodes, const char* source, int source_components, const char* name, int components, auto make) {
     const Field* field = Grid::find(on_nodes ? first.node_fields : first.cell_fields, source);
-    if (field != nullptr) shown.push_back({name, on_nodes, components == 0 ? field->components : components, source, make});
+    if (field == nullptr || field->components != source_components) return;
+    shown.push_back({name, on_nodes, components, source, source_components, make});
   };
   const std::function<void(const float*, float*)> as_it_is;
-  add(true, "displacement", "displacement", 3, as_it_is);
+  add(true, "displacement", 3, "displacement", 3, as_it_is);
   if (all) {
-    add(true, "velocity", "velocity", 3, as_it_is);
+    add(true, "velocity", 3, "velocity", 3, as_it_is);
   } else {
-    add(true, "velocity", "speed", 1, length);
+    add(true, "velocity", 3, "speed", 1, length);
   }
-  add(true, "contact_pressure_normal", "contact_pressure", 1, length);
-  add(true, "contact_gap", "contact_gap", 1, as_it_is);
-  add(true, "contact_penetration", "contact_penetration", 1, as_it_is);
-  add(true, "contact_state", "contact_state", 1, as_it_is);
+  add(true, "contact_pressure_normal", 3, "contact_pressure", 1, length);
+  add(true, "contact_gap", 1, "contact_gap", 1, as_it_is);
+  add(true, "contact_penetration", 1, "contact_penetration", 1, as_it_is);
+  add(true, "contact_state", 1, "contact_state", 1, as_it_is);
   if (all) {
-    add(true, "contact_pressure_tangential", "contact_shear", 1, length);
-    add(true, "contact_force", "contact_force", 3, as_it_is);
+    add(true, "contact_pressure_tangential", 3, "contact_shear", 1, length);
+    add(true, "contact_force", 3, "contact_force", 3, as_it_is);
   }
-  add(false, "plastic_strain", "plastic_strain", 1, as_it_is);
-  add(false, "von_mises", "von_mises", 1, as_it_is);
+  add(false, "plastic_strain", 1, "plastic_strain", 1, as_it_is);
+  add(false, "von_mises", 1, "von_mises", 1, as_it_is);
   if (Grid::find(first.cell_fields, "pressure") == nullptr) {
-    add(false, "stress", "pressure", 1, [](const float* from, float* to) { *to = -(from[0] + from[1] + from[2]) / 3.0f; });
+    add(false, "stress", 6, "pressure", 1, [](const float* from, float* to) { *to = -(from[0] + from[1] + from[2]) / 3.0f; });
   }
   if (!all) return shown;
-  add(false, "stress", "stress", 6, as_it_is);
+  add(false, "stress", 6, "stress", 6, as_it_is);
   const auto known = [&](const std::string& name) {
     static constexpr const char* taken[] = {"contact_pressure_normal", "contact_pressure_tangential"};
     return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return s.source == name; }) ||
@@ -71,7 +73,7 @@ std::vector<Shown> choose_fields(const Grid& first, bool all) {
   };
   for (const bool on_nodes : {true, false}) {
     for (const Field& f : on_nodes ? first.node_fields : first.cell_fields) {
-      if (!known(f.name)) shown.push_back({f.name, on_nodes, f.components, f.name, as_it_is});
+      if (!known(f.name)) shown.push_back({f.name, on_nodes, f.components, f.name, f.components, as_it_is});
     }
   }
   return shown;
@@ -148,7 +150,7 @@ Mesh make_mesh(const Grid& first, const std::vector<std::uint8_t>& erodes, const
   }
   for (const ContactSurface& s : contact) {
     for (const auto& segment : s.segments) {
-      for (const Index n : segment) node.at(at(n)) = 1;
+      for (const Index n : segment) node[at(n)] = 1;
     }
   }
   mesh.node_number = number(node, mesh.nodes);
@@ -167,7 +169,8 @@ Json segments_json(const ContactSurface& s, const Mesh& mesh, ChunkStore& store)
 Json mesh_json(const Grid& first, const Mesh& mesh, ChunkStore& store) {
   const Field* displacement = Grid::find(first.node_fields, "displacement");
   const auto initial = [&](Index n, std::size_t c) {
-    const double moved = displacement != nullptr ? static_cast<double>(displacement->values[3 * at(n) + c]) : 0.0;
+    const double moved =
+        displacement != nullptr && displacement->components == 3 ? static_cast<double>(displacement->values[3 * at(n) + c]) : 0.0;
     return first.points[3 * at(n) + c] - moved;
   };
   std::array<double, 3> origin{};
@@ -281,11 +284,12 @@ struct State {
   /// @throws RunError when it cannot be read or is not of the run of `first`
   State(const std::filesystem::path& file, const Grid& first, const std::vector<Shown>& shown) : grid(read_grid(file)) {
     const auto refuse = [&file](const std::string& why) { throw RunError(file.string() + ": " + why); };
-    if (grid.points.size() != first.points.size()) refuse("another number of nodes than the first state");
+    if (grid.points.size() != first.points.size() || grid.node_id != first.node_id) refuse("other nodes than the first state");
     place = places(first.cells, grid.cells);
     for (const Shown& s : shown) {
       fields.push_back(Grid::find(s.on_nodes ? grid.node_fields : grid.cell_fields, s.source));
-      if (fields.back() == nullptr) refuse("no field " + s.source);
+      if (fields.back() == nullptr || fields.back()->components != s.source_components)
+        refuse("no field " + s.source + " as in the first state");
     }
   }
 };
@@ -296,7 +300,7 @@ Written add_states(const std::vector<StateFile>& states, const std::filesystem::
   document["frames"] = Json::array();
   if (states.empty()) return written;
   const Grid first = first_readable(states);
-  const std::vector<ContactSurface> contact = read_contact_surfaces(contact_file);
+  const std::vector<ContactSurface> contact = read_contact_surfaces(contact_file, first.node_id);
   const Mesh mesh = make_mesh(first, gone_at_the_end(states, first.cells), contact);
   const double all_values = static_cast<double>(mesh.nodes.size() + mesh.cells.size()) * static_cast<double>(states.size());
   const bool all = choice == Fields::all || all_values < many_values;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "core/diagnostic.hpp"
 #include "output/run_outputs.hpp"
@@ -266,6 +267,72 @@ TEST_F(ReportTest, AStateThatCannotBeReadIsLeftOut) {
       EXPECT_LT(document_["first"].get<std::size_t>(), 2u);
     }
   }
+}
+
+/// A grid of one cell on the points of four nodes.
+std::string small_grid(const char* connectivity, const char* offsets, int type, const char* cell_arrays, int displacements = 3) {
+  const auto array = [](const char* kind, const char* name, int components, const std::string& values) {
+    return "<DataArray type=\"" + std::string(kind) + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
+           "\" format=\"ascii\">" + values + "</DataArray>";
+  };
+  std::string zeros, text = "<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" ";
+  for (int i = 0; i < 4 * displacements; ++i) zeros += "0 ";
+  text += "header_type=\"UInt64\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><PointData>";
+  text +=
+      array("Int64", "node_id", 1, "101 102 103 104") + array("Float32", "displacement", displacements, zeros) + "</PointData><CellData>";
+  for (std::istringstream names(cell_arrays); names >> zeros;) text += array("Int64", zeros.c_str(), 1, "1");
+  text += "</CellData><Points>" + array("Float64", "Points", 3, "0 0 0 1 0 0 1 1 0 0 1 0") + "</Points><Cells>";
+  text += array("Int32", "connectivity", 1, connectivity) + array("Int64", "offsets", 1, offsets) +
+          array("UInt8", "types", 1, std::to_string(type));
+  return text + "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
+}
+
+// VTK reads these files without a word: cells that point beyond the nodes, and fields of another width.
+TEST_F(ReportTest, AStateWithCellsThatAreNoneIsLeftOut) {
+  const struct {
+    const char *connectivity, *offsets;
+    int type;
+    const char* why;
+  } damages[] = {{"0 1 2 900000000", "4", 9, "a cell with a corner that is no point of the file"},
+                 {"0 1 2 -1", "4", 9, "a cell with a corner that is no point of the file"},
+                 {"0 1 2 4", "4", 9, "a cell with a corner that is no point of the file"},
+                 {"0 1 2 3", "3", 9, "a cell with a wrong number of corners"},
+                 {"0 1 2 3", "9", 9, "damaged animation state"},
+                 {"0 1 2", "3", 9, "a cell with a wrong number of corners"},
+                 {"0 1 2 3 0 1 2 3 0 1", "10", 12, "a cell with a wrong number of corners"},
+                 {"0 1", "2", 3, "a cell of a kind that abut does not write"}};
+  const std::filesystem::path state = folder_.path() / "scene_anim" / "scene_00000.vtu";
+  run({0.0, 0.5});
+  for (const auto& damage : damages) {
+    SCOPED_TRACE(std::string(damage.connectivity) + ", type " + std::to_string(damage.type));
+    std::ofstream(state) << small_grid(damage.connectivity, damage.offsets, damage.type, "element_id part_id");
+    write();
+    EXPECT_EQ(written_.left_out, std::vector<std::string>{state.string() + ": " + damage.why});
+    EXPECT_EQ(document_["frames"].size(), 1u);
+  }
+}
+
+TEST_F(ReportTest, AStateOfAnotherRunIsLeftOut) {
+  run({0.0, 0.5});
+  const auto state = [this](int k) { return folder_.path() / "scene_anim" / ("scene_0000" + std::to_string(k) + ".vtu"); };
+  std::ofstream(state(1)) << small_grid("0 1 2 3", "4", 9, "element_id part_id");
+  write();
+  EXPECT_EQ(written_.left_out, std::vector<std::string>{state(1).string() + ": other nodes than the first state"});
+  std::filesystem::remove(folder_.path() / "scene_contact.vtu");
+  std::ofstream(state(0)) << small_grid("0 1 2 3", "4", 9, "element_id part_id");
+  std::ofstream(state(1)) << small_grid("0 1 2 3", "4", 9, "element_id part_id", 2);
+  write();
+  EXPECT_EQ(written_.left_out, std::vector<std::string>{state(1).string() + ": no field displacement as in the first state"});
+}
+
+TEST_F(ReportTest, ContactSurfacesOfAnotherMeshAreRefusedByName) {
+  run({0.0});
+  const std::filesystem::path surfaces = folder_.path() / "scene_contact.vtu";
+  std::ofstream(surfaces) << small_grid("0 1 2 3", "4", 9, "interface_id surface_id side");
+  try {
+    (void)write_report(folder_.path(), file(), page, Fields::automatic);
+    ADD_FAILURE() << "drawn without a word";
+  } catch (const RunError& e) { EXPECT_EQ(std::string(e.what()), surfaces.string() + ": its nodes are not those of the animation"); }
 }
 
 TEST_F(ReportTest, AManifestOfOtherTypesIsNone) {
