@@ -11,7 +11,7 @@ install(EXPORT abutContactTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR
 if(NOT ABUT_CONTACT_ONLY)
   set_target_properties(abut_abut PROPERTIES EXPORT_NAME abut)
   get_property(stage_targets GLOBAL PROPERTY ABUT_STAGES)
-  list(REMOVE_ITEM stage_targets abut_contact abut_simd)
+  list(REMOVE_ITEM stage_targets abut_contact abut_simd abut_report)  # the report is the program's own, and needs VTK
   install(TARGETS ${stage_targets} abut_abut EXPORT abutTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT abutTargets NAMESPACE abut:: DESTINATION ${ABUT_CONFIG_DIR})

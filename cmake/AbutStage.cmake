@@ -34,6 +34,5 @@ function(abut_stage name)
   target_link_libraries(abut_${name} PUBLIC ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:abut_options> ${ARG_PRIVATE_DEPENDS})
   target_compile_features(abut_${name} PUBLIC cxx_std_20)
   set_target_properties(abut_${name} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(abut_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_include_directories(abut_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
 endfunction()

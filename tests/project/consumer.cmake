@@ -1,5 +1,6 @@
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -DGENERATOR=... -DKIND=installed|subdirectory -P consumer.cmake
 # Installs abut into a fresh prefix (KIND installed), then configures, builds and runs the consumer and examples/embed against it.
+# KIND subdirectory: abut is part of the consumer's project, which then installs it with its headers in a folder of another name for a second one.
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 
@@ -17,7 +18,7 @@ if(KIND STREQUAL "installed")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
   list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 else()
-  list(APPEND options -DABUT_SOURCE=${SOURCE})
+  list(APPEND options -DABUT_SOURCE=${SOURCE} -DABUT_INSTALL=ON -DCMAKE_INSTALL_INCLUDEDIR=headers)
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer/${KIND} -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
@@ -28,3 +29,9 @@ elseif(KIND STREQUAL "installed" AND EXISTS ${WORK}/prefix/lib/cmake/abut/abutTa
   message(FATAL_ERROR "abut::abut is installed and was not used")
 endif()
 run(${WORK}/build/embed/embed ${WORK}/embed.calls)
+if(KIND STREQUAL "subdirectory")
+  run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/prefix)
+  run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer/installed -B ${WORK}/second ${options} -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+  run(${CMAKE_COMMAND} --build ${WORK}/second --parallel 2 --target consumer)
+  run(${WORK}/second/consumer)
+endif()
