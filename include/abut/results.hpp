@@ -41,7 +41,7 @@ struct InterfaceResult {
   double largest_penetration = 0.0;               ///< length
   Index deepest_node = no_index;                  ///< the one that has penetrated by that much
   /// Largest normal approach of a held node in the last step, in units of the gap (contact::StepResult::largest_approach), and the largest
-  /// in any step since the last row of the time history before this one. 0 for TYPE7 and without a gap.
+  /// in any step since the last row of the time history before this one. 0 without a gap.
   double largest_approach = 0.0, peak_approach = 0.0;
   /// Share of the first and second surface near the other one that faces it, by area, when it was last looked at (docs/guide/outputs.md).
   /// NaN: TYPE7, a set of nodes, or nothing decided yet.

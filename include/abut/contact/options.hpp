@@ -124,7 +124,8 @@ struct StepResult {
   Index crossed = 0;                 ///< nodes that the swept test caught in this step: they would have jumped through
   Index lost = 0;  ///< nodes that went over a free border with P > 0 in this step, held ones or straight through (closest points only)
   /// Largest normal approach in the last step (t^n - h_- to t^n) of a held node that is in contact or near it, in units of the gap: at 1 a
-  /// node takes the whole gap in a step. 0 where nothing closes in, in the first cycle, and always with Gap = 0, which has no such unit.
+  /// node takes the whole gap in a step. TYPE7: of the pairs with P > 0, in units of their own gaps. 0 where nothing closes in, in the
+  /// first cycle, and always with Gap = 0, which has no such unit.
   double largest_approach = 0.0;
   /// Upper limit of the coming step: gap - P against closing speed, and the step that a light pair's last force was made for; 1e30: none.
   /// It says nothing of the step before: a host lets its step grow by 1.1 from cycle to cycle and no more, see HostState::dt.

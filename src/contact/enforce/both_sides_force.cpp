@@ -237,7 +237,7 @@ bool BothSides::add_pair(const HostState& host, Index node, Index facet, const P
     result.largest_penetration = p;
     result.deepest_node = held_.nodes()[at(node)];
   }
-  result.largest_approach = std::max(result.largest_approach, -vn * host.dt / options_.gap);
+  result.largest_approach = std::max(result.largest_approach, -vn * host.dt / met.gap);
   sums.elastic += elastic.stored;
   sums.damping_work -= 0.5 * host.dt * vn * (pair.damping + old.damping);
   pairs_.push_back(pair);

@@ -64,5 +64,23 @@ TEST(Approach, is_relative_and_the_largest) {
   EXPECT_NEAR(host.contact(two).largest_approach, 6.0 * h / gap, 1e-15);
 }
 
+// TYPE7 with a gap of its own for each pair: its share, not that of the least gap.
+TEST(Approach, is_in_units_of_the_gap_of_the_pair) {
+  constexpr double h = 0.01;
+  Host host;
+  auto facets = grid(host, 3, 3, -1.5, 1.5, -1.5, 1.5, flat);
+  const Index thin = host.add({-0.7, 0.1, 0.09}, 1.0, {0.0, 0.0, -3.0}), thick = host.add({0.7, 0.1, 0.38}, 1.0, {0.0, 0.0, -4.0});
+  host.dt = host.before = h;
+  BothSidesOptions options;
+  options.gap = 0.05;
+  options.node_gap = {0.04, 0.34};
+  options.facet_gap.assign(facets.size(), 0.06);
+  Interface i = Interface::both_sides({thin, thick}, Surface(facets), options);
+  i.set_surface(0, {std::vector<double>(2, 42.0), {}, {}});
+  set_stiffness(i, 1, facets.size(), 42.0);
+  EXPECT_NEAR(host.contact(i).largest_approach, 3.0 * h / 0.1, 1e-15);  // 4 h of 0.4 is less
+  EXPECT_EQ(host.last.in_contact, 2);
+}
+
 }  // namespace
 }  // namespace abut::contact
