@@ -7,6 +7,7 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "core/diagnostic.hpp"
 #include "output/files.hpp"
@@ -49,8 +50,13 @@ void write_oriented_deck(const std::filesystem::path& starter, const std::vector
   }
   std::ifstream in(starter, std::ios::binary);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  bool last_line_ends = true;
+  for (std::string line; std::getline(in, line);) {
+    lines.push_back(line);
+    last_line_ends = !in.eof();
+  }
   if (lines.empty()) throw RunError("cannot read " + starter.string());
+  const std::string_view line_end = lines.front().ends_with('\r') ? "\r\n" : "\n";
 
   Id next = 1;
   for (const model::Surface& s : model.surfaces) next = std::max(next, s.id + 1);
@@ -69,27 +75,28 @@ void write_oriented_deck(const std::filesystem::path& starter, const std::vector
     const Index surface = t3 != nullptr ? (t.side == 0 ? t3->surface_1 : t3->surface_2) : t5->surface;
     put(lines[card_line(lines, keyword, 2)], t.side == 0 ? 1 : 11, next);
     put(lines[card_line(lines, keyword, 4)], t.side == 0 ? 11 : 21, 2);
-    fmt::format_to(std::back_inserter(added), "/SURF/SEG/{}\nsurface {} turned to face the other side of interface {}\n", next,
-                   t.surface_id, card.id);
+    fmt::format_to(std::back_inserter(added), "/SURF/SEG/{}{}surface {} turned to face the other side of interface {}{}", next, line_end,
+                   t.surface_id, card.id, line_end);
     Id number = 0;
     for (const model::Segment& s : model.surfaces[static_cast<std::size_t>(surface)].segments) {
       fmt::format_to(std::back_inserter(added), "{:>10}", ++number);
       for (const Index n : s.nodes) fmt::format_to(std::back_inserter(added), "{:>10}", model.node_id[static_cast<std::size_t>(n)]);
-      added += '\n';
+      added += line_end;
     }
     ++next;
   }
 
+  const auto end = std::find_if(lines.begin(), lines.end(), [](const std::string& line) { return line.starts_with("/END"); });
   std::string text;
-  bool written = false;
-  for (const std::string& line : lines) {
-    if (line.rfind("/END", 0) == 0 && !written) {
-      text += added;
-      written = true;
-    }
-    text += line + '\n';
+  for (auto line = lines.begin(); line != lines.end(); ++line) {
+    if (line == end) text += added;
+    text += *line;
+    if (line + 1 != lines.end() || last_line_ends) text += '\n';
   }
-  if (!written) text += added;
+  if (end == lines.end()) {
+    if (!last_line_ends) text += line_end;
+    text += added;
+  }
   output::write_atomically(target, text);
 }
 

@@ -110,6 +110,28 @@ def write_deck(abut, deck, work):
            f"a full disk leaves what was there: {full.stderr}")
 
 
+def line_ends(abut, deck, work):
+    """--write-deck keeps what it does not change byte for byte, and writes its own lines with the deck's line ends."""
+    with open(deck, "rb") as file:
+        original = file.read().replace(b"\r\n", b"\n")
+    written = {}
+    for end in (b"\n", b"\r\n"):
+        for last in (b"", end):
+            source, target = (os.path.join(work, name) for name in ("ends_0000.rad", "ends_written_0000.rad"))
+            with open(source, "wb") as file:
+                file.write((original.rstrip(b"\n")).replace(b"\n", end) + last)
+            subprocess.run([abut, "check", source, "--orient", "auto", "--write-deck", target], capture_output=True, check=True)
+            with open(target, "rb") as file:
+                written[end, last] = file.read()
+    plain = written[b"\n", b""]
+    expect(all(got == plain.replace(b"\n", end) + last for (end, last), got in written.items()), "--write-deck keeps the deck's line ends")
+    before, after = original.rstrip(b"\n").split(b"\n"), plain.split(b"\n")
+    start = after.index(next(line for line in after if line.startswith(b"/SURF/SEG/") and line not in before))
+    rest = after[:start] + after[len(after) - (len(before) - start):]
+    changed = [a for a, b in zip(before, rest) if a != b]
+    expect(before != after and len(before) == len(rest) and len(changed) == 2, f"--write-deck changes two cards: {changed}")
+
+
 def main():
     if len(sys.argv) != 3:
         print(__doc__, file=sys.stderr)
@@ -155,6 +177,7 @@ def main():
             expect(status == 0 and "contact.normals_away" not in found and "contact.mixed_orientation" not in found,
                    f"the deck that --write-deck wrote for {name} is sound: {status} {sorted(found)}")
         write_deck(abut, deck("normals_away"), work)
+        line_ends(abut, deck("normals_away"), work)
         in_turn = os.path.join(work, "in_turn_0000.rad")
         with open(deck("same_pair"), encoding="latin-1") as file, open(in_turn, "w", encoding="latin-1") as changed:
             first, second = (f"{0:>20}{9e-4:>20}{start:>20}{stop:>20}\n" for start, stop in ((0, 5e-6), (5e-6, 0)))
