@@ -4,7 +4,7 @@
 usage: check_includes.py [ROOT]
 
 - A stage of src/ includes only itself and the stages before it in STAGES, and public headers (include/abut).
-- contact/ includes only include/abut, simd/ and itself; nobody but contact/ includes its private headers.
+- contact/ includes only include/abut, simd/ and itself; no other stage includes its private headers.
 - include/abut includes only the standard library and include/abut.
 - A library that belongs to one stage (MPI, VTK, CLI11) is included there only.
 - A quoted include names a file that exists.

@@ -32,7 +32,7 @@ struct Tables {
   using Map = std::unordered_map<Id, Index>;
   Map nodes, shells, sh3ns, bricks, tetras, parts, materials, properties, functions, skews, sensors;
   Map node_groups, surfaces, interfaces, rigid_bodies, rigid_walls, sections, accelerometers;
-  Map shell_groups, sh3n_groups, brick_groups, part_groups;  ///< into Context::element_groups / part_groups
+  Map shell_groups, sh3n_groups, brick_groups, part_groups;  ///< into the lists of Context with the same names
 };
 
 /// Members of an element or part group, sorted indices. In a brick group k < #bricks is a brick, k - #bricks a tetrahedron.

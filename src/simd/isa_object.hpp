@@ -5,7 +5,7 @@
 #include "simd/pack.hpp"
 
 #if !defined(ABUT_ISA) || !defined(ABUT_ISA_WIDTH)
-#error "build this file with abut_isa_sources() (cmake/AbutStage.cmake)"
+#error "build this file with abut_stage() (cmake/AbutStage.cmake)"
 #endif
 
 namespace abut::simd::ABUT_ISA {
