@@ -7,6 +7,7 @@
 #include <set>
 
 #include "model/condition_fields.hpp"
+#include "model/main_nodes.hpp"
 #include "model/measure.hpp"
 #include "model/topology.hpp"
 #include "model/wording.hpp"
@@ -34,6 +35,7 @@ class Validator {
     interfaces(masses_are_known);
     rigid_bodies(masses_are_known);
     if (masses_are_known) loads_on_massless_nodes();
+    if (masses_are_known && !d_.has_errors()) check_main_nodes(c_, mass_);
     check_motions(c_);
     if (masses_are_known) something_moves();
     unused_functions();

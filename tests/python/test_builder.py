@@ -98,6 +98,28 @@ def test_a_rigid_body_keeps_its_shape_and_a_wall_stops_it():
     assert len(run.history.find("RWALL/1/FN?")) == 3 and len(run.history.find("NODE/1/D?")) == 3
 
 
+def test_a_rigid_body_on_a_node_of_the_mesh_leaves_the_mesh_whole():
+    """A bar at rest whose last brick is rigid, with one of the bar's nodes as main node: refused where the start would move that node
+    (2.5 J from nothing), at rest with ICoG 3."""
+    def bar(icog):
+        b = builder()
+        ids = b.nodes([(x, y, z) for x in range(4) for y, z in ((0, 0), (1, 0), (1, 1), (0, 1))])
+        b.part(b.solid_property(), b.elastic(**STEEL), bricks=[np.append(ids[k:k + 4], ids[k + 4:k + 8]) for k in (0, 4, 8)])
+        if icog == 1:
+            b.rigid_body(ids[8], ids[9:])
+        else:
+            b.card(f"/RBODY/1\nend\n{ids[8]:>10}{0:>10}{0:>10}{0:>10}{0:>20}{b.group(ids[9:]):>10}{0:>10}{icog:>10}\n\n\n")
+        b.engine(0.02)
+        return abut.Run(b.build(), threads=1, record_history=False)
+
+    with pytest.raises(abut.InputError, match=r"/RBODY/1 field 'node_ID': node 9 belongs to element 2, and ICoG 1 moves it by 0\.\d+, to the "
+                                              r"centre of gravity at .*; give a free node, or ICoG 3"):
+        bar(1)
+    run = bar(3)
+    run.advance_to_end()
+    assert run.balance.ie == run.balance.ke == run.balance.initial == 0.0
+
+
 def shells(b, height, facing_down=False):
     """A plate of 2 by 2 shells over the unit square. @returns node ids, facets"""
     ids = b.nodes([(x, y, height) for y in (0.0, 0.5, 1.0) for x in (0.0, 0.5, 1.0)])

@@ -270,7 +270,8 @@ class ModelBuilder:
 
     @_whole
     def rigid_body(self, main: int, nodes: ArrayLike, *, mass: float = 0.0, id: int | None = None, title: str = "rigid body") -> int:
-        """Nodes (ids) that move as one body with the node `main`, which takes their place of mass. mass: added. Returns its id."""
+        """Nodes (ids) that move as one body with the node `main`, a free one: the start puts it to their centre of gravity. mass: added.
+        Returns its id."""
         cards.check_ids(main=main)
         cards.check_finite(mass=mass)
         group = self.group(nodes, title=title)
