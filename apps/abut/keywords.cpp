@@ -149,7 +149,9 @@ int keywords_command(const KeywordsArguments& arguments) {
       "the readers what they do with a line, e.g. `/SURF/SEG/1`. Format versions 41 to 2026; \"(from 51)\" and the like: versions in which "
       "the "
       "field is read\n"
-      "where that is not all. Columns are those of the layout with 10 columns (from 51 on). Numbers in other fields are not looked at.\n");
+      "where that is not all. Columns are those of the layout with 10 columns (from 51 on). Numbers in other fields are not looked at; one "
+      "that\n"
+      "crosses the edge of a field is an error, or a warning where both parts are read, for columns would cut it in two.\n");
   if (!names_of(starter, Treatment::taken).empty()) {
     fmt::print(
         "\n## Starter: read\n\nA number in bold is the card, counted without the title (of the newest layout).\n\n| keyword | cards: "

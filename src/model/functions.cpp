@@ -107,6 +107,7 @@ void read_functions(Context& c) {
   for (const deck::Block& b : c.deck->blocks) {
     if (!b.is(0, "FUNCT")) continue;
     BlockReader r(c, b, 1, true);
+    r.last_column(40);
     Function f;
     f.id = r.id();
     f.x.reserve(b.cards.size());

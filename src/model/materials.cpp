@@ -45,6 +45,7 @@ void read_elasticity(BlockReader& r, double& young, double& poisson, double lowe
 
 LawElastic read_elastic(BlockReader& r) {
   LawElastic law;
+  r.last_column(40);
   r.next_card();
   law.young = r.real({1, 20}, "E", dim::pressure);
   law.poisson = r.real({21, 40}, "nu");

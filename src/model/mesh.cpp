@@ -25,6 +25,7 @@ void read_nodes(Context& c) {
     const deck::Block& b = c.deck->blocks[k];
     if (!b.is(0, "NODE")) continue;
     BlockReader r(c, b, -1, false);
+    r.last_column(70);
     for (const deck::Card& card : b.cards) {
       r.next_card();
       if (deck::field_text(card.text, {1, 100}).empty()) continue;
@@ -93,6 +94,7 @@ void read_parts(Context& c) {
   for (const deck::Block& b : c.deck->blocks) {
     if (!b.is(0, "PART")) continue;
     BlockReader r(c, b, 1, true);
+    r.last_column(50);
     r.next_card();
     Entry p;
     p.id = r.id();

@@ -114,6 +114,7 @@ BlockReader::BlockReader(Context& context, const deck::Block& block, int id_word
 }
 
 BlockReader::~BlockReader() {
+  leave_card();
   if (context_->field_log != nullptr || context_->diagnostics->error_count() > errors_before_) return;
   const deck::Card* first = nullptr;
   int lines = 0;
@@ -132,23 +133,65 @@ BlockReader::~BlockReader() {
 
 std::string BlockReader::keyword() const { return block_->name(); }
 
-void BlockReader::leave_rest() { next_ = block_->cards.size(); }
+void BlockReader::leave_rest() {
+  next_ = block_->cards.size();
+  edges_.clear();
+}
 
 bool BlockReader::more() const { return next_ < block_->cards.size(); }
 
 bool BlockReader::next_card() {
+  leave_card();
   card_ = more() ? &block_->cards[next_++] : nullptr;
   return card_ != nullptr;
 }
 
+void BlockReader::leave_card() {
+  if (card_ != nullptr && edges_.has_numbers()) {
+    for (FieldEdges::Finding& f : edges_.findings(card_->text)) {
+      Place p = context_->deck->place(*block_, *card_);
+      p.field = std::move(f.field);
+      p.first_column = f.columns.first;
+      p.last_column = f.columns.last;
+      context_->diagnostics->add({f.lost ? Severity::error : Severity::warning, "deck.cut_number", std::move(p), std::move(f.message)});
+    }
+    number_right_of_fields();
+  }
+  edges_.clear();
+}
+
+void BlockReader::number_right_of_fields() {
+  const auto end = static_cast<std::size_t>(in_layout({last_column_, last_column_}).last);
+  if (told_surplus_ || card_->text.size() <= end || card_->file != block_->file) return;
+  if (!deck::is_blank(card_->text[end]) && !deck::is_blank(card_->text[end - 1])) return;  // of the field before, if it is a number
+  const std::string_view rest = deck::trimmed(card_->text.substr(end));
+  const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
+  if (word.empty() || deck::parse_real(word).value_or(0.0) == 0.0) return;  // no number, or one that says what a blank says
+  told_surplus_ = true;
+  Place p = context_->deck->place(*block_, *card_);
+  p.first_column = static_cast<int>(word.data() - card_->text.data()) + 1;
+  p.last_column = p.first_column + static_cast<int>(word.size()) - 1;
+  context_->diagnostics->warning(
+      "deck.surplus_text", std::move(p),
+      fmt::format("{} stands right of the last field, which ends in column {}, and is not read", quoted(word), end));
+}
+
+deck::Columns BlockReader::in_layout(deck::Columns c) const { return old_layout(*context_) ? to_old_layout(c) : c; }
+
 std::string_view BlockReader::text(deck::Columns c) const {
-  if (card_ == nullptr) return {};
-  return deck::field_text(card_->text, old_layout(*context_) ? to_old_layout(c) : c);
+  return card_ == nullptr ? std::string_view{} : deck::field_text(card_->text, in_layout(c));
 }
 
 std::string_view BlockReader::text(deck::Columns c, std::string_view field) {
   if (context_->field_log != nullptr) context_->field_log->push_back({next_ - (titled_ ? 1 : 0), c, std::string(field)});
+  edges_.take(in_layout(c));
   return text(c);
+}
+
+std::string_view BlockReader::number(deck::Columns c, std::string_view field) {
+  const std::string_view s = text(c, field);
+  if (!s.empty()) edges_.take_number(card_->text, in_layout(c), field);
+  return s;
 }
 
 std::string BlockReader::not_a(std::string_view what, std::string_view text) const {
@@ -158,7 +201,7 @@ std::string BlockReader::not_a(std::string_view what, std::string_view text) con
 }
 
 double BlockReader::real(deck::Columns c, std::string_view field, Dimension d) {
-  const std::string_view s = text(c, field);
+  const std::string_view s = number(c, field);
   if (s.empty()) return 0.0;
   const std::optional<double> value = deck::parse_real(s);
   if (!value) {
@@ -176,7 +219,7 @@ double BlockReader::real(deck::Columns c, std::string_view field, Dimension d) {
 }
 
 Id BlockReader::integer(deck::Columns c, std::string_view field) {
-  const std::string_view s = text(c, field);
+  const std::string_view s = number(c, field);
   const std::optional<Id> value = deck::parse_integer(s);
   if (!value) error("deck.bad_integer", c, field, not_a("an integer", s));
   return value.value_or(0);
@@ -206,7 +249,7 @@ std::vector<Id> BlockReader::id_list(std::string_view field) {
     const bool foreign = card_->file != block_->file;
     for (int i = 0; i < 10; ++i) {
       const deck::Columns c{10 * i + 1, 10 * i + 10};
-      const std::string_view s = text(c, field);
+      const std::string_view s = number(c, field);
       const std::optional<Id> id = deck::parse_integer(s);
       if (!id && foreign) {  // text of an included file after the list (H.2, item 3)
         warning("deck.surplus_lines", c, field, fmt::format("the list ends here: {} is not an id", quoted(s)));
@@ -224,9 +267,10 @@ std::vector<Id> BlockReader::id_list(std::string_view field) {
 bool BlockReader::surplus_text(std::string_view field) {
   if (card_ == nullptr) return false;
   constexpr deck::Columns beyond{101, 110};
-  const auto first = static_cast<std::size_t>(old_layout(*context_) ? to_old_layout(beyond).first : beyond.first) - 1;
+  const auto first = static_cast<std::size_t>(in_layout(beyond).first) - 1;
   const std::string_view text = first < card_->text.size() ? deck::trimmed(card_->text.substr(first)) : std::string_view{};
   if (text.empty()) return false;
+  told_surplus_ = true;
   constexpr std::size_t shown = 40;
   warning(
       "deck.surplus_text", beyond, field,
@@ -254,7 +298,7 @@ Place BlockReader::place() const { return context_->deck->place(*block_); }
 
 Place BlockReader::place(deck::Columns c, std::string_view field) const {
   Place p = card_ != nullptr ? context_->deck->place(*block_, *card_) : place();
-  if (old_layout(*context_) && c.first > 0) c = to_old_layout(c);
+  if (c.first > 0) c = in_layout(c);
   p.field = std::string(field);
   p.first_column = c.first;
   p.last_column = c.last;

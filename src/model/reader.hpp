@@ -13,6 +13,7 @@
 #include "core/diagnostic.hpp"
 #include "deck/deck.hpp"
 #include "deck/fields.hpp"
+#include "model/field_edges.hpp"
 #include "model/model.hpp"
 
 namespace abut::model {
@@ -84,7 +85,7 @@ class BlockReader {
   /// @param has_title the keyword is followed by a title card (from version 51 on)
   /// @param id_word   which word of the keyword line holds the id (e.g. 2 for /INTER/TYPE3/1); -1: the keyword has no id
   BlockReader(Context& context, const deck::Block& block, int id_word, bool has_title);
-  /// Warns of lines that no card was read from, unless the block has an error.
+  /// Judges the last card, and warns of lines that no card was read from, unless the block has an error.
   ~BlockReader();
   BlockReader(const BlockReader&) = delete;
   BlockReader& operator=(const BlockReader&) = delete;
@@ -94,7 +95,11 @@ class BlockReader {
   [[nodiscard]] const std::string& title() const { return title_; }
   [[nodiscard]] std::string keyword() const;  ///< "/INTER/TYPE3/1"
 
-  /// Moves to the next data card. false: the card is missing; its fields then read as blank (A.5).
+  /// The block's cards have no field right of this column; without it they end with the line.
+  void last_column(int column) { last_column_ = column; }
+
+  /// Moves to the next data card, after a look at the edges of the fields that were read from the one at hand. false: the card is missing;
+  /// its fields then read as blank (A.5).
   bool next_card();
   [[nodiscard]] bool more() const;  ///< another data card follows
   void leave_rest();                ///< the cards that follow are not read, and this is said elsewhere
@@ -136,7 +141,18 @@ class BlockReader {
   /// "'1 2' is not an integer", with a word on tabs where the line has some.
   [[nodiscard]] std::string not_a(std::string_view what, std::string_view text) const;
 
+  /// Text of a field that is read as a number.
+  [[nodiscard]] std::string_view number(deck::Columns c, std::string_view field);
+  /// Reports numbers that cross the edge of a field.
+  void leave_card();
+  /// Warns, once, of a number other than 0 right of the last field.
+  void number_right_of_fields();
+  [[nodiscard]] deck::Columns in_layout(deck::Columns c) const;
+
   const deck::Card* card_ = nullptr;
+  FieldEdges edges_;
+  int last_column_ = 100;
+  bool told_surplus_ = false;
 };
 
 // Readers by group of keywords. Each takes the blocks it knows (returns true) and leaves the others (false).
