@@ -195,6 +195,13 @@ def test_plastic_shells_and_triangles_and_tetrahedra():
     (lambda b: b.engine_text(), ValueError, "call engine"),
     (lambda b: b.card("GRAV"), ValueError, "begins with its keyword line"),
     (lambda b: b.engine(1.0, cards_text="junk"), ValueError, "cards_text is 'junk', but a block begins with its keyword line"),
+    # The deck would end there, or be another one.
+    (lambda b: b.card("/GRAV/1\ng\n\n/END"), ValueError, "text holds '/END', but /BEGIN and /END and #ENDDATA are written by the builder"),
+    (lambda b: b.card("/GRAV/1\ng\n\n/ end / 1\n"), ValueError, "text holds '/ end / 1'"),
+    (lambda b: b.card("/GRAV/1\ng\n\n#enddata\n"), ValueError, "text holds '#enddata'"),
+    (lambda b: b.card("/BEGIN\nother\n"), ValueError, "text holds '/BEGIN'"),
+    (lambda b: b.engine(1.0, cards_text="/PRINT/-1\n/RUN/m/1\n0.5"), ValueError, "cards_text holds '/RUN/m/1', but /RUN and /END are written"),
+    (lambda b: b.engine(1.0, cards_text="/PRINT/-1\n/END"), ValueError, "cards_text holds '/END'"),
     (lambda b: b.engine(1.0, step_scale=np.nan), ValueError, "step_scale is nan, expected a finite number"),
     (lambda b: b.engine(1.0, print_every=1.5), TypeError, "print_every is 1.5, expected an integer"),
     (lambda b: b.engine(1.0, step_scale=0.0), ValueError, "step_scale is 0.0, expected a positive number"),

@@ -22,7 +22,6 @@ _FAMILIES = {"shells": ("SHELL", 4), "triangles": ("SH3N", 3), "bricks": ("BRICK
 _HISTORY = {"nodes": "NODE", "parts": "PART", "shells": "SHEL", "triangles": "SH3N", "bricks": "BRIC", "interfaces": "INTER",
             "rigid_walls": "RWALL", "rigid_bodies": "RBODY"}
 
-
 _Method = TypeVar("_Method", bound=Callable[..., Any])
 
 
@@ -294,15 +293,16 @@ class ModelBuilder:
             self._titled(f"TH/{word}", "TH", None, title, *wanted, *listed)
 
     def card(self, text: str) -> None:
-        """Any other block of the Starter deck, as text: its keyword line and cards."""
-        self._lines += cards.block(text, "text")
+        """Any other blocks of the Starter deck, as text: keyword lines and their cards, without /BEGIN and /END."""
+        self._lines += cards.block(text, "text", ("/BEGIN", "/END", "#ENDDATA"))
 
     def engine(self, end_time: float, *, step_scale: float = 0.9, history_interval: float | None = None,
                animation_interval: float | None = None, print_every: int = 100, cards_text: str = "") -> None:
         """What the Engine deck says; the last call counts.
 
         step_scale: factor of the stable step; history_interval, animation_interval: times, None: a hundredth of end_time, no animation;
-        print_every: cycles between lines of the listing; cards_text: any other blocks, each from its keyword line.
+        print_every: cycles between lines of the listing; cards_text: any other blocks, each from its keyword line,
+        but for /RUN and /END.
         """
         cards.positive(end_time, "end_time")
         interval = end_time / 100 if history_interval is None else cards.positive(history_interval, "history_interval")
@@ -313,7 +313,7 @@ class ModelBuilder:
         if animation_interval is not None:
             lines += ["/ANIM/DT", reals(0, cards.positive(animation_interval, "animation_interval"))]
         if cards_text:
-            lines += cards.block(cards_text, "cards_text")
+            lines += cards.block(cards_text, "cards_text", ("/RUN", "/END"))
         self._engine = lines
 
     # ---- results ----

@@ -161,11 +161,17 @@ def names(values: Sequence[str], name: str) -> list[str]:
     return listed
 
 
-def block(text: str, name: str) -> list[str]:
-    """Lines of whole blocks: the first is a keyword line."""
+def block(text: str, name: str, own: Sequence[str]) -> list[str]:
+    """Lines of whole blocks: the first is a keyword line. None is of the keywords `own`, which the builder writes."""
     if not text.startswith("/"):
         raise ValueError(f"{name} is {text!r}, but a block begins with its keyword line, e.g. '/GRAV/1'")
-    return text.rstrip("\n").split("\n")
+    lines = text.rstrip("\n").split("\n")
+    for line in lines:
+        keyword = "/" + line[1:].split("/")[0].strip() if line.startswith("/") else line.strip()
+        if keyword.upper() in own:
+            raise ValueError(f"{name} holds {line!r}, but {' and '.join(own)} are written by the builder: leave this line and what "
+                             f"belongs to it out")
+    return lines
 
 
 def direction(value: str, rotations: bool = True) -> str:
