@@ -297,6 +297,37 @@ def test_what_the_reader_refuses():
     assert "density is -1" in text and "Poisson's ratio is 0.7" in text and "/PROP" in text and "model_0000.rad" in text
 
 
+@pytest.mark.parametrize("call, words", [
+    (lambda b, n: b.fix(n + 1000), r"model_0000.rad:\d+: /GRNOD/NODE/1: no /NODE with id 1001 \(nor 7 more of the list\)"),
+    (lambda b, n: b.fix(np.append(n[:1], 1000)), "/GRNOD/NODE/1: no /NODE with id 1000"),
+    (lambda b, n: b.velocity([], (0, 0, 1)), "/GRNOD/NODE/1: the group holds no node"),
+    (lambda b, n: b.load([1000], "Z", 0), "no /NODE with id 1000"),
+    (lambda b, n: b.rigid_wall((0, 0, -1), (0, 0, 1), nodes=[1000]), "no /NODE with id 1000"),
+    (lambda b, n: b.pressure(b.surface(parts=[1, 9]), 0), "/SURF/PART/EXT/1: no /PART with id 9"),
+    (lambda b, n: b.pressure(b.surface(np.zeros((0, 4), dtype=int)), 0), "/SURF/SEG/1: the surface holds no segment"),
+    (lambda b, n: b.history(nodes=[1, 1000]), "/TH/NODE/1: there is no NODE 1000"),
+    (lambda b, n: b.history(rigid_bodies=[3]), "there is no RBODY 3"),
+    (lambda b, n: (b.fix([1000]), b.contact(1, 2)), "no /NODE with id 1000.*\n.*no /SURF with id 1"),
+])
+def test_lists_of_what_there_is_not(call, words):
+    """A deck may name what is not there, with a warning; a list that the builder wrote may not, and what card() brings may."""
+    def model(more):
+        b = builder()
+        ids = one_cube(b)
+        b.engine(1.0)
+        more(b, ids)
+        return b
+
+    b = model(call)
+    with pytest.raises(abut.InputError, match=r"(?s)" + words) as caught:
+        b.build()
+    wrong = [d for d in caught.value.diagnostics if d.severity == "error"]
+    assert str(caught.value) == "\n".join(map(str, wrong)) and all(d.line > 0 for d in wrong)
+
+    typed = model(lambda b, ids: b.card("/GRNOD/NODE/7\nfew\n         1      1000\n/TH/NODE/7\nnone\nDEF\n      1000")).build()
+    assert [d.code for d in typed.findings] == ["model.unknown_member", "model.missing_output"]
+
+
 def test_a_model_in_which_all_is_rigid_falls_in_steps():
     """Nothing limits the step then: it is a thousandth of the run and grows to a hundredth, not the whole of it."""
     b = builder()

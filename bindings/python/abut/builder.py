@@ -5,7 +5,7 @@ import functools
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,13 +14,18 @@ from . import cards
 from .cards import integers, real, reals
 
 if TYPE_CHECKING:
-    from . import Model
+    from . import Diagnostic, InputError, Model
+
+    def refuse(findings: Sequence[Diagnostic], wrong: Sequence[int]) -> NoReturn: ...
 else:
-    from ._native import Model
+    from ._native import InputError, Model
+    from ._native import _refuse as refuse
 
 _FAMILIES = {"shells": ("SHELL", 4), "triangles": ("SH3N", 3), "bricks": ("BRICK", 8), "tetras": ("TETRA4", 4)}
 _HISTORY = {"nodes": "NODE", "parts": "PART", "shells": "SHEL", "triangles": "SH3N", "bricks": "BRIC", "interfaces": "INTER",
             "rigid_walls": "RWALL", "rigid_bodies": "RBODY"}
+# What a list may hold that does not exist, and lists that hold nothing.
+_MISSING = ("model.unknown_member", "model.empty_group", "model.empty_surface", "model.missing_output")
 
 _Method = TypeVar("_Method", bound=Callable[..., Any])
 
@@ -71,6 +76,7 @@ class ModelBuilder:
             self._lines += ["/TITLE", cards.checked_text(title, "title")]
         self._engine: list[str] = []
         self._last: dict[str, int] = {}
+        self._typed: set[int] = set()  # lines of starter_text() that card() brought
 
     # ---- mesh ----
 
@@ -294,7 +300,9 @@ class ModelBuilder:
 
     def card(self, text: str) -> None:
         """Any other blocks of the Starter deck, as text: keyword lines and their cards, without /BEGIN and /END."""
+        first = len(self._lines)
         self._lines += cards.block(text, "text", ("/BEGIN", "/END", "#ENDDATA"))
+        self._typed.update(range(first + 1, len(self._lines) + 1))
 
     def engine(self, end_time: float, *, step_scale: float = 0.9, history_interval: float | None = None,
                animation_interval: float | None = None, print_every: int = 100, cards_text: str = "") -> None:
@@ -342,10 +350,23 @@ class ModelBuilder:
         """The model. Raises InputError with every finding; places in its messages are lines of starter_text().
 
         orient: turn the segments of contact surfaces to face each other where that is unambiguous.
+        An id in a list that does not exist and a group that holds nothing, warnings where a deck or card() has them, are errors here.
         """
-        return Model.from_text(self.starter_text(), [self.engine_text()], name=self.name, orient=orient)
+        try:
+            model = Model.from_text(self.starter_text(), [self.engine_text()], name=self.name, orient=orient)
+        except InputError as error:
+            self._check_lists(error.diagnostics)
+            raise
+        self._check_lists(model.findings)
+        return model
 
     # ---- helpers ----
+
+    def _check_lists(self, findings: Sequence[Diagnostic]) -> None:
+        """Raises InputError where a list that the builder wrote names what there is not."""
+        wrong = [k for k, finding in enumerate(findings) if finding.code in _MISSING and finding.line not in self._typed]
+        if wrong:
+            refuse(findings, wrong)
 
     def _add(self, keyword: str, *lines: str) -> None:
         self._lines += [keyword, *lines]

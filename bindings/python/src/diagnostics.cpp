@@ -1,7 +1,10 @@
 // Diagnostics, and the exceptions that carry them.
 #include <pybind11/stl.h>
 
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "abut/diagnostic.hpp"
 #include "diagnostic_names.hpp"
@@ -32,6 +35,14 @@ void raise_input_error(const InputError& e) {
 py::object columns(const Diagnostic& d) {
   if (d.place.first_column == 0) return py::none();
   return py::make_tuple(d.place.first_column, d.place.last_column);
+}
+
+/// Raises InputError with all findings, those at the places `wrong` made errors.
+void refuse(std::vector<Diagnostic> findings, const std::vector<std::size_t>& wrong) {
+  for (const std::size_t k : wrong) findings.at(k).severity = Severity::error;
+  Diagnostics all;
+  for (Diagnostic& d : findings) all.add(std::move(d));
+  throw InputError(std::move(all));
 }
 
 }  // namespace
@@ -71,6 +82,7 @@ void bind_diagnostics(py::module_& m) {
   input_error = make_exception(m, "InputError", PyExc_ValueError,
                                "Input that cannot be used. `diagnostics` lists every finding, str() the errors among them, one a line.");
   run_error = make_exception(m, "RunError", PyExc_RuntimeError, "A run that cannot go on: not finite, an error limit, a full disk.");
+  m.def("_refuse", &refuse, py::arg("findings"), py::arg("wrong"));
   py::register_exception_translator([](std::exception_ptr p) {
     try {
       if (p) std::rethrow_exception(p);
