@@ -50,7 +50,7 @@ Index choose_facet(const Side& surface, Index n, Index previous, const Vec3& x) 
 
 void IncrementalSearch::start(const Side& held, const Side& surface, std::vector<Tracked>& tracked) {
   then_.clear();
-  refresh(surface, 0.0);
+  const double first_radius = refresh(surface, 0.0);
   tracked.assign(at(held.node_count()), {});
   if (surface.node_count() == 0) return;
   for (Index i = 0; i < held.node_count(); ++i) {
@@ -58,7 +58,7 @@ void IncrementalSearch::start(const Side& held, const Side& surface, std::vector
     const Vec3 x = held.x()[at(i)];
     double best = 1e300;
     bool everything = false;
-    for (double radius = reach_; !everything && best > radius * radius; radius *= 2.0) {
+    for (double radius = first_radius; !everything && best > radius * radius; radius *= 2.0) {
       Bounds box{x, x};
       box.inflate(radius);
       Index seen = 0;
@@ -77,27 +77,29 @@ void IncrementalSearch::start(const Side& held, const Side& surface, std::vector
   }
 }
 
-void IncrementalSearch::refresh(const Side& surface, double gap) {
+double IncrementalSearch::refresh(const Side& surface, double gap) {
+  double diagonal = 0.0;
+  const std::span<const Vec3> x = surface.x();
+  for (const auto& node : surface.surface().local()) {
+    diagonal = std::max({diagonal, squared_norm(x[at(node[2])] - x[at(node[0])]), squared_norm(x[at(node[3])] - x[at(node[1])])});
+  }
+  // Whoever can touch a facet has one of its nodes within a diagonal.
+  constexpr double to_spare = 1.75;
+  const double reach = std::max(to_spare * (std::sqrt(diagonal) + std::abs(gap)), 1e-300);
   moved_ = 0.0;
-  for (std::size_t s = 0; s < then_.size(); ++s) moved_ = std::max(moved_, squared_norm(surface.x()[s] - then_[s]));
+  for (std::size_t s = 0; s < then_.size(); ++s) moved_ = std::max(moved_, squared_norm(x[s] - then_[s]));
   moved_ = std::sqrt(moved_);
-  if (!then_.empty() && moved_ <= 0.25 * reach_) return;
-  then_.assign(surface.x().begin(), surface.x().end());
+  if (!then_.empty() && moved_ <= 0.25 * reach) return reach;
+  then_.assign(x.begin(), x.end());
   tree_.resize(then_.size());
   for (std::size_t s = 0; s < then_.size(); ++s) tree_.set(static_cast<Index>(s), {then_[s], then_[s]});
   tree_.update();
   moved_ = 0.0;
-  double diagonal = 0.0;
-  for (const auto& node : surface.surface().local()) {
-    diagonal =
-        std::max({diagonal, squared_norm(then_[at(node[2])] - then_[at(node[0])]), squared_norm(then_[at(node[3])] - then_[at(node[1])])});
-  }
-  // Whoever can touch a facet has one of its nodes within a diagonal.
-  reach_ = std::max(std::sqrt(diagonal) + std::abs(gap), 1e-300);
+  return reach;
 }
 
 void IncrementalSearch::update(const Side& held, const Side& surface, std::vector<Tracked>& tracked, double gap) {
-  refresh(surface, gap);
+  const double reach = refresh(surface, gap);
   for (Index i = 0; i < held.node_count(); ++i) {
     Tracked& t = tracked[at(i)];
     if (t.node == no_index) continue;
@@ -114,12 +116,13 @@ void IncrementalSearch::update(const Side& held, const Side& surface, std::vecto
         }
       }
     }
-    const double radius = std::min(std::sqrt(best), reach_);
+    const double radius = std::min(std::sqrt(best), reach);
     Bounds box{x, x};
     box.inflate(radius + moved_);
     Index nearer = no_index;
     tree_.query(box, [&](Index s) {
       const double away = squared_norm(x - surface.x()[at(s)]);
+      if (away > reach * reach) return;  // of those out there the box has some or others, as old as the tree is
       if ((away < best || (away == best && nearer != no_index && s < nearer)) && surface.nodes()[at(s)] != own) {
         best = away;
         nearer = s;

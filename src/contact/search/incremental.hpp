@@ -2,7 +2,8 @@
 //
 // Where we differ: after the one-ring update the nearest node is compared with all nodes within reach, and a nearer one is
 // taken: the search cannot be left behind or stop at a local minimum. Wherever the one-ring update finds the nearest node,
-// ties included, the result is its result.
+// ties included, the result is its result. Reach, somewhat more than the largest diagonal of a facet and the gap, is that of
+// the positions now: what is tracked depends on them and on what was tracked before, not on when the tree was made.
 #pragma once
 
 #include <vector>
@@ -28,10 +29,10 @@ class IncrementalSearch {
  private:
   BoxTree tree_;
   std::vector<Vec3> then_;
-  double reach_ = 0.0;
-  double moved_ = 0.0;
+  double moved_ = 0.0;  ///< the furthest that any node has since the tree was made
 
-  void refresh(const Side& surface, double gap);
+  /// Brings the tree up to date. @return reach: the distance within which update() finds every node
+  double refresh(const Side& surface, double gap);
 };
 
 /// 7.3.3: the facet around node n that x projects on. @param previous  the stored facet or no_index

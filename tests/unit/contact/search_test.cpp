@@ -65,6 +65,56 @@ TEST(Search, incremental_finds_the_nearest_node) {
   }
 }
 
+// Nodes come to a bumpy sheet from several diagonals of its facets away, sideways and down. Another search that begins at any cycle with
+// what the first has tracked (a tree of another age: a resumed run) tracks the same from there on.
+TEST(Search, incremental_does_not_depend_on_the_age_of_its_tree) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  Host host;
+  const auto bumps = [](double x, double y) { return 0.12 * std::sin(9 * x) * std::sin(8 * y); };
+  const auto main = grid(host, 16, 16, -1, 1, -1, 1, bumps);
+  const auto first = host.x.size();
+  std::vector<Index> nodes;
+  for (int i = 0; i < 60; ++i) nodes.push_back(host.add({u(random), u(random), 0.8 + 0.2 * u(random)}, 1.0));
+  Side surface(Surface(main), false), held(nodes, std::vector<double>(nodes.size(), 1.0));
+  surface.set({}, false);
+  const std::vector<Vec3> at_start = host.x;
+  const auto place = [&](int step) {
+    for (std::size_t n = 0; n < host.x.size(); ++n) {
+      const Vec3 by = n < first ? Vec3{0.002 * std::sin(5.0 * at_start[n].y), 0.0, 0.001} : Vec3{0.02, -0.013, -0.008};
+      host.x[n] = at_start[n] + static_cast<double>(step) * by;
+    }
+    surface.gather(host.x);
+    held.gather(host.x);
+  };
+  constexpr int steps = 80;
+  place(0);
+  IncrementalSearch search;
+  std::vector<std::vector<Tracked>> tracked(1);
+  search.start(held, surface, tracked[0]);
+  for (int step = 1; step <= steps; ++step) {
+    place(step);
+    tracked.push_back(tracked.back());
+    search.update(held, surface, tracked.back(), 0.01);
+  }
+  int differing = 0, far = 0;
+  for (int begin = 0; begin < steps; ++begin) {
+    IncrementalSearch again;
+    std::vector<Tracked> now = tracked[at(begin)];
+    for (int step = begin + 1; step <= steps; ++step) {
+      place(step);
+      again.update(held, surface, now, 0.01);
+      for (Index i = 0; i < held.node_count(); ++i) {
+        const Tracked& then = tracked[at(step)][at(i)];
+        if (now[at(i)].node != then.node || now[at(i)].facet != then.facet) ++differing;
+        if (norm(held.x()[at(i)] - surface.x()[at(then.node)]) > 0.5) ++far;
+      }
+    }
+  }
+  EXPECT_EQ(differing, 0);
+  EXPECT_GT(far, 10000) << "of 194400, beyond the largest diagonal (0.26 to 0.3)";
+}
+
 // T29: a node that would jump through in one step is caught, pushed back, ends in front, and keeps its energy.
 TEST(Swept, fast_projectiles_end_in_front) {
   const test::Shots flat = test::shoot(0.0, 200, 21);
