@@ -2,6 +2,7 @@
 """Torture the restart: whatever happens to a run, it goes on with the same bits, or says clearly why it does not.
 
 usage: check_restart.py ABUT DECK [--kills N] [--damages N] [--seed S]
+       check_restart.py ABUT DECK --stops N
 
 ABUT is the program, DECK a Starter deck that has no errors, with its Engine deck beside it. Standard library only.
 
@@ -12,7 +13,8 @@ ABUT is the program, DECK a Starter deck that has no errors, with its Engine dec
 - checkpoints cut off and with flipped bits: the one before is taken, or a clear refusal;
 - checkpoints of another model, of a changed Engine deck, of another version: refused, and the folder stays as it is;
 - a chain of Engine decks NAME_0001, NAME_0002 ends in the state of one run to the same time: run at once, and by `abut resume` with kills
-  in run 2; run 2 does not begin in the state of another model.
+  in run 2; run 2 does not begin in the state of another model;
+- with --stops nothing but this: N runs of which each stops at another time, spread over the whole, and goes on with NAME_0002.
 Exit status 0 when all holds.
 """
 import argparse
@@ -406,20 +408,38 @@ def others(case):
     print("other models, decks and versions are refused")
 
 
-def chain(case, kills_in_run_2):
-    """Run 1 to 40 % of the time and run 2 to the end: the state is that of one run; rows at the seam may be more."""
-    decks = os.path.join(case.folder, "chain")
+def first_part(case, decks, share):
+    """The deck in a folder of its own, with an Engine deck to this share of the time. @returns it, and the match of /RUN in the whole one's"""
     os.makedirs(decks)
     shutil.copy(case.deck, decks)
     deck = os.path.join(decks, os.path.basename(case.deck))
     text = open(case.deck.replace("_0000.rad", "_0001.rad")).read()
     end = re.search(r"(?m)^(/RUN/.*)/1\s*\n\s*(\S+)", text)
-    first = text.replace(end.group(0), f"{end.group(1)}/1\n{0.4 * float(end.group(2))}", 1)
+    first = text.replace(end.group(0), f"{end.group(1)}/1\n{share * float(end.group(2))}", 1)
     write(deck.replace("_0000.rad", "_0001.rad"), first.encode())
+    return deck, end
+
+
+def stops(case, count):
+    for k in range(1, count + 1):
+        deck, end = first_part(case, os.path.join(case.folder, f"stop_{k}"), k / (count + 1))
+        folder = os.path.join(case.folder, f"stopped_{k}")
+        result = call(case.abut, "run", deck, "-o", folder, "--quiet", "--hash-every", HASH_EVERY, "--checkpoint-every", CHECKPOINT_EVERY)
+        expect(result.returncode == 0, "the first part of a run runs", result)
+        write(deck.replace("_0000.rad", "_0002.rad"), f"{end.group(1)}/2\n{end.group(2)}\n".encode())
+        result = case.resume(folder, threads=1 + k % 3)
+        expect(result.returncode == 0, "its second part runs", result)
+        case.expect_same(folder, f"stopped at {k} of {count + 1} parts of the time")
+    print(f"{count} runs that were stopped on their way end with the same bits")
+
+
+def chain(case, kills_in_run_2):
+    """Run 1 to 40 % of the time and run 2 to the end: the state is that of one run; rows at the seam may be more."""
+    decks = os.path.join(case.folder, "chain")
+    deck, end = first_part(case, decks, 0.4)
     second = deck.replace("_0000.rad", "_0002.rad")
     folder = os.path.join(case.folder, "in_steps")
-    more = ("--hash-every", HASH_EVERY, "--checkpoint-every", CHECKPOINT_EVERY)
-    result = call(case.abut, "run", deck, "-o", folder, "--quiet", *more)
+    result = call(case.abut, "run", deck, "-o", folder, "--quiet", "--hash-every", HASH_EVERY, "--checkpoint-every", CHECKPOINT_EVERY)
     expect(result.returncode == 0, "run 1 of a chain runs", result)
     write(second, f"{end.group(1)}/2\n{end.group(2)}\n".encode())
     last = read(case.checkpoint(folder))
@@ -455,9 +475,13 @@ def main():
     parser.add_argument("--kills", type=int, default=6)
     parser.add_argument("--damages", type=int, default=8)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--stops", type=int, default=0)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="abut_restart_") as folder:
         case = Case(os.path.abspath(arguments.abut), arguments.deck, folder, random.Random(arguments.seed))
+        if arguments.stops > 0:
+            stops(case, arguments.stops)
+            return 0
         kills(case, arguments.kills)
         at_the_last_moment(case)
         full_disk(case)

@@ -300,14 +300,19 @@ void BothSides::add_nodal_area(std::span<const Vec3> x, std::span<double> area) 
 
 void BothSides::add_nodal_contact(std::span<NodalContact> nodes) const {
   if (!candidates_.made() || slips_.empty()) return;
-  std::vector<Index> scratch;
+  // Lists of its own: those of the search reach only as far as forces do, and what else they hold depends on their age.
+  const double shown = surface_.mean_size(), flat = warp(surface_);
+  const auto reach_of = [&](Index node) { return reach(node) < 0.0 ? -1.0 : reach(node) + shown; };
+  Candidates near;
+  near.update(held_, surface_, {}, reach_of, flat, true);
   for (Index node = 0; node < held_.node_count(); ++node) {
-    if (gone_[at(node)] != 0 || !held_.node_active(node)) continue;
+    double smallest = std::nextafter(shown, 1e300);  // beyond that the lists need not have the nearest one
     NodalContact c;
-    for (const Index facet : facets_of(candidates_, node, scratch)) {
-      const double distance = std::sqrt(closest_point(surface_.patch(facet), held_.x()[at(node)]).squared_distance);
-      const double opening = distance - pair_gap(node, facet);
-      if (!(c.opening <= opening)) c.opening = opening;
+    for (const Candidates::Entry& entry : near.of(node)) {
+      const double gap = pair_gap(node, entry.facet);
+      if (entry.due - flat - gap >= smallest) continue;
+      const double opening = meet(held_, surface_, node, entry.facet, gap).contact.distance - gap;
+      if (opening < smallest) c.opening = smallest = opening;
     }
     merge(nodes[at(held_.nodes()[at(node)])], c);
   }

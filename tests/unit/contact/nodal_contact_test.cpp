@@ -1,7 +1,9 @@
 // What an interface says of each held node for output: opening, penetration, stick or slip.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "bench_host.hpp"
 
@@ -117,6 +119,39 @@ TEST(NodalContact, TwoSidedInterfaceToo) {
   EXPECT_NEAR(c.opening, -0.02, 1e-12);
   EXPECT_NEAR(c.penetration, 0.02, 1e-12);
   EXPECT_EQ(c.state, NodalContact::State::slip);
+}
+
+// A node wanders over a plane, in small steps and in large ones: what is said of it is its height less the gap, up to the size of a facet,
+// whatever the search lists of the step hold. Above the border it is the distance from there.
+TEST(NodalContact, TwoSidedOpeningIsThatOfTheNearestFacet) {
+  Host host;
+  const auto plane = grid(host, 8, 8, 0.0, 8.0, 0.0, 8.0, flat);
+  const Index node = host.add({4.0, 4.0, 1.0}, 1.0);
+  BothSidesOptions options;
+  options.gap = gap;
+  Interface interface = Interface::both_sides({node}, Surface(plane), options);
+  test::set_stiffness(interface, 1, plane.size(), 100.0);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int said = 0, silent = 0;
+  for (int step = 0; step < 3000; ++step) {
+    std::vector<Vec3> x = host.x;
+    Vec3& now = x.back();
+    now += (step % 10 == 0 ? 0.5 : 0.02) * Vec3{u(random), u(random), u(random)};
+    now = {std::clamp(now.x, -1.0, 9.0), std::clamp(now.y, -1.0, 9.0), std::clamp(now.z, 0.001, 1.5)};
+    host.place(interface, x);
+    std::vector<NodalContact> out(host.x.size());
+    interface.add_nodal_contact(out);
+    const double opening = norm(now - Vec3{std::clamp(now.x, 0.0, 8.0), std::clamp(now.y, 0.0, 8.0), 0.0}) - gap;
+    (opening <= 1.0 ? said : silent) += 1;
+    if (opening <= 1.0) {
+      ASSERT_NEAR(out.back().opening, opening, 1e-12) << step;
+    } else {
+      ASSERT_TRUE(std::isnan(out.back().opening)) << step;
+    }
+  }
+  EXPECT_GT(said, 500);
+  EXPECT_GT(silent, 500);
 }
 
 }  // namespace
