@@ -154,7 +154,7 @@ class Interface {
   /// @throws std::invalid_argument when one is too short
   void add_nodal_area(std::span<const Vec3> x, std::span<double> area) const;
   /// Merges what this interface knows of its held nodes into #N values: the smallest opening, the deepest penetration, the larger state.
-  /// At the positions of the last search().
+  /// At the positions of the last search(). Nothing is merged unless it acted in the last evaluate() and no restore() came after that.
   /// @param nodes  #N
   /// @throws std::invalid_argument when it is too short
   void add_nodal_contact(std::span<NodalContact> nodes) const;

@@ -94,8 +94,8 @@ struct NodalContact {
   enum class State : std::uint8_t { apart, stick, slip };  ///< without friction every contact slips
   State state = State::apart;
   /// Signed distance to the nearest point of the other side less the interface's gap: contact begins at 0, below it the node
-  /// penetrates. NaN: nothing near (beyond what the search looks at; both_sides: beyond the mean size of a facet), or the node is not
-  /// held.
+  /// penetrates. NaN: nothing near (beyond what the search looks at; both_sides: beyond the mean size of a facet), the node is not held, or
+  /// the interface does not act.
   double opening = std::numeric_limits<double>::quiet_NaN();
   double penetration = 0.0;  ///< P of a node in contact, else 0
 };

@@ -209,7 +209,8 @@ StepResult BothSides::evaluate(const HostState& host, std::span<Vec3> force, std
   std::fill(normal_.begin(), normal_.end(), Vec3{});
   std::fill(tangential_.begin(), tangential_.end(), Vec3{});
   Sums sums;
-  if (acts(host)) {
+  acted_ = acts(host);
+  if (acted_) {
     std::swap(pairs_, previous_);
     pairs_.clear();
     fastest_ = fastest(host);
@@ -299,7 +300,7 @@ void BothSides::add_nodal_area(std::span<const Vec3> x, std::span<double> area) 
 }
 
 void BothSides::add_nodal_contact(std::span<NodalContact> nodes) const {
-  if (!candidates_.made() || slips_.empty()) return;
+  if (!acted_) return;
   // Lists of its own: those of the search reach only as far as forces do, and what else they hold depends on their age.
   const double shown = surface_.mean_size(), flat = warp(surface_);
   const auto reach_of = [&](Index node) { return reach(node) < 0.0 ? -1.0 : reach(node) + shown; };
@@ -346,7 +347,7 @@ void BothSides::save(HistoryWriter& out) const {
 
 void BothSides::load(HistoryReader& in) {
   stale_ = true;
-  evaluated_ = false;
+  evaluated_ = acted_ = false;
   if (in.next<std::uint64_t>() != layout) in.refuse("was written by a version whose two-sided interfaces remember something else");
   in.get_any(pairs_);
   in.get_all(old_force_);

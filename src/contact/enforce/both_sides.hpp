@@ -118,6 +118,7 @@ class BothSides final : public InterfaceModel {
   std::vector<Pair> pairs_, previous_;                         // by node, then facet
   std::vector<Vec3> normal_, tangential_, old_force_, old_x_;  // #own
   bool evaluated_ = false;                                     // and not committed: evaluate() moves the pairs
+  bool acted_ = false;                                         // in the last evaluate(), since a history was loaded
   std::vector<std::uint8_t> gone_;                             // #held: left the interface for good
   std::vector<std::uint8_t> slips_;                            // #held: some friction of the node is at its limit (output only, no history)
   std::vector<Mobility> pressed_;                              // #own: sum of k n n^T over the pairs that act; a corner's k is H k

@@ -205,6 +205,7 @@ std::array<Motion, 2> OneSided::gather(const HostState& host) {
 
 StepResult OneSided::evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness) {
   const bool awake = host.time >= options_.birth && host.time <= options_.death;
+  acted_ = awake;
   for (std::size_t k = 0; k < 2; ++k) {
     over_pieces(k, [&loads = loads_[k]](std::size_t begin, std::size_t end) { loads.clear(begin, end); });
   }
@@ -330,7 +331,7 @@ void OneSided::add_nodal_area(std::span<const Vec3> x, std::span<double> area) c
 }
 
 void OneSided::add_nodal_contact(std::span<NodalContact> nodes) const {
-  if (!started_ && !tried_) return;
+  if (!acted_) return;
   pass_[0].add_nodal_contact(side_[0], side_[1], nodes);
   if (two_passes_) pass_[1].add_nodal_contact(side_[1], side_[0], nodes);
 }
@@ -388,6 +389,7 @@ void OneSided::load(HistoryReader& in) {
   tried_ = true;
   stepped_ = false;
   committed_ = false;
+  acted_ = false;
 }
 
 }  // namespace abut::contact

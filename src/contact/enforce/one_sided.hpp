@@ -46,6 +46,7 @@ class OneSided final : public InterfaceModel {
   double initial_elastic_ = 0.0;                    ///< stored before anything moved: initial penetrations
   bool started_ = false;                            ///< a step was committed
   bool tried_ = false;                              ///< searched or restored: until a step is committed passes begin anew
+  bool acted_ = false;                              ///< in the last evaluate(), since a history was loaded
   bool waiting_ = false, waiting_step_ = false;     ///< the last step, this one was before the birth
   bool stepped_ = false;                 ///< SideLoads::x_before are, or after committed_ will be, the positions of the last search
   bool committed_ = false;               ///< since the last search: the sides' positions are now those before the step

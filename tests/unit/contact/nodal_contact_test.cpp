@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "bench_host.hpp"
@@ -152,6 +153,62 @@ TEST(NodalContact, TwoSidedOpeningIsThatOfTheNearestFacet) {
   }
   EXPECT_GT(said, 500);
   EXPECT_GT(silent, 500);
+}
+
+/// What is said of a node that lies 0.02 deep in the gap of a plane, before, in and after the interface's time window, and when it goes on
+/// from what it remembered.
+void expect_silence_outside_of_the_window(const std::function<Interface(const std::vector<Facet>&, Index)>& make) {
+  Host host;
+  const auto plane = grid(host, 4, 4, 0.0, 4.0, 0.0, 4.0, flat);
+  const Index node = host.add({2.2, 1.7, gap - 0.02}, 1.0);
+  Interface interface = make(plane, node);
+  const auto said = [&host](const Interface& i) {
+    std::vector<NodalContact> out(host.x.size());
+    i.add_nodal_contact(out);
+    return out.back();
+  };
+  for (int step = 1; step <= 9; ++step) {
+    const bool acts = step >= 3 && step <= 6;
+    host.place(interface, host.x);
+    if (acts) {
+      EXPECT_NEAR(said(interface).opening, -0.02, 1e-12) << step;
+      EXPECT_NEAR(said(interface).penetration, 0.02, 1e-12) << step;
+      EXPECT_NE(said(interface).state, NodalContact::State::apart) << step;
+    }
+    Interface again = make(plane, node);
+    again.restore(interface.history());
+    for (const Interface* i : {&again, &interface}) {
+      if (i == &interface && acts) continue;
+      EXPECT_TRUE(std::isnan(said(*i).opening)) << step;
+      EXPECT_EQ(said(*i).penetration, 0.0) << step;
+      EXPECT_EQ(said(*i).state, NodalContact::State::apart) << step;
+    }
+  }
+}
+
+TEST(NodalContact, OutsideOfTheTimeWindowNothingIsSaid) {
+  for (const Rules& rules : {Rules::standard(), Rules::reference()}) {
+    expect_silence_outside_of_the_window([&rules](const std::vector<Facet>& plane, Index node) {
+      Options options;
+      options.rules = rules;
+      options.gap = gap;
+      options.birth = 2.5;
+      options.death = 6.5;
+      Interface interface = Interface::nodes_to_surface({node}, {100.0}, Surface(plane), options);
+      test::set_stiffness(interface, 1, plane.size(), 100.0);
+      return interface;
+    });
+  }
+  expect_silence_outside_of_the_window([](const std::vector<Facet>& plane, Index node) {
+    BothSidesOptions options;
+    options.gap = gap;
+    options.birth = 2.5;
+    options.death = 6.5;
+    options.initial = BothSidesOptions::Initial::keep;
+    Interface interface = Interface::both_sides({node}, Surface(plane), options);
+    test::set_stiffness(interface, 1, plane.size(), 100.0);
+    return interface;
+  });
 }
 
 }  // namespace
