@@ -3,17 +3,6 @@
 #include <algorithm>
 
 namespace abut::cycle {
-namespace {
-
-/// Index of the model's surface on a side of an interface; no_index: a set of nodes.
-Index surface_of(const model::Interface& card, std::size_t side) {
-  if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) return side == 0 ? t3->surface_1 : t3->surface_2;
-  if (side == 0) return no_index;
-  if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) return t5->surface;
-  return std::get<model::InterfaceType7>(card.type).surface;
-}
-
-}  // namespace
 
 ContactArea::ContactArea(const model::Model& model, std::span<const init::RunInterface> interfaces) {
   struct Listed {
@@ -23,10 +12,10 @@ ContactArea::ContactArea(const model::Model& model, std::span<const init::RunInt
   std::vector<Listed> listed;
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     const model::Interface& card = model.interfaces[static_cast<std::size_t>(interfaces[i].model_index)];
+    const std::array<Index, 2> surfaces = model::surfaces_of(card);
     for (std::size_t side = 0; side < 2; ++side) {
-      const Index surface = surface_of(card, side);
-      if (surface == no_index) continue;
-      const auto& segments = model.surfaces[static_cast<std::size_t>(surface)].segments;
+      if (surfaces[side] == no_index) continue;
+      const auto& segments = model.surfaces[static_cast<std::size_t>(surfaces[side])].segments;
       for (std::size_t f = 0; f < segments.size(); ++f) {
         std::array<Index, 4> key = segments[f].nodes;
         std::sort(key.begin(), key.end());

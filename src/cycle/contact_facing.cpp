@@ -21,21 +21,6 @@ std::vector<Index> nodes_of(const contact::InspectionInput& input) {
   return nodes;
 }
 
-/// Mean size of the facets of the finer surface.
-double size_of(const contact::InspectionInput& input) {
-  double size = 1e300;
-  for (const contact::InspectedSide& side : input.side) {
-    if (side.facets.empty()) continue;
-    double sum = 0.0;
-    for (const contact::Facet& f : side.facets) {
-      const auto at = [&](std::size_t k) { return input.x[static_cast<std::size_t>(f.node[k])]; };
-      sum += std::sqrt(0.5 * norm(cross(at(2) - at(0), at(3) - at(1))));
-    }
-    size = std::min(size, sum / static_cast<double>(side.facets.size()));
-  }
-  return size;
-}
-
 /// By more than `limit` since `seen`.
 bool has_moved(std::span<const Index> nodes, std::span<const std::array<float, 3>> seen, std::span<const Vec3> start,
                std::span<const Vec3> x, double limit) {
@@ -73,9 +58,8 @@ ContactFacing::ContactFacing(const model::Model& model, const init::FacingShares
     if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
     Watched& w = interfaces_[i];
     const init::InspectedInterface geometry(model, card, x);
-    const contact::InspectionInput input = geometry.input(x);
-    w.nodes = nodes_of(input);
-    w.limit = moved_share * size_of(input);
+    w.nodes = nodes_of(geometry.input(x));
+    w.limit = moved_share * geometry.facet_size(x);
   }
 }
 

@@ -26,7 +26,6 @@ class ChunkTable {
 
   [[nodiscard]] Index size() const { return static_cast<Index>(first_.size()) - 1; }
   [[nodiscard]] int components() const { return components_; }
-  [[nodiscard]] std::size_t blocks_per_chunk() const { return blocks_per_chunk_; }
   /// Blocks [begin, end) of a chunk.
   [[nodiscard]] std::size_t first_block(std::size_t chunk) const { return chunk * blocks_per_chunk_; }
   [[nodiscard]] std::size_t end_block(std::size_t chunk) const;

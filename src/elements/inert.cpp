@@ -14,7 +14,7 @@ class InertGroup final : public Group {
     part_ = in.part;
     elements_ = in.elements;
     layout_.nodes_per_element = data_.nodes_per_element;
-    layout_.components = data_.inertia.empty() ? 4 : 8;
+    layout_.components = 4;
     layout_.blocks = (size() + lanes - 1) / lanes;
   }
 
@@ -24,12 +24,8 @@ class InertGroup final : public Group {
     const auto n = static_cast<std::size_t>(data_.nodes_per_element);
     return std::span(data_.nodes).subspan(static_cast<std::size_t>(element) * n, n);
   }
-  void add_masses(std::span<double> mass, std::span<double> inertia) const override {
-    for (std::size_t i = 0; i < data_.nodes.size(); ++i) {
-      const auto node = static_cast<std::size_t>(data_.nodes[i]);
-      mass[node] += data_.mass[i];
-      if (!data_.inertia.empty()) inertia[node] += data_.inertia[i];
-    }
+  void add_masses(std::span<double> mass, std::span<double> /*inertia*/) const override {
+    for (std::size_t i = 0; i < data_.nodes.size(); ++i) mass[static_cast<std::size_t>(data_.nodes[i])] += data_.mass[i];
   }
   GroupResult step(const StepInput& in, const StepOutput& out, parallel::ThreadPool& pool) override {
     if (out.slots != nullptr) std::fill_n(out.slots + layout_.offset, layout_.size(), 0.0);
@@ -40,16 +36,10 @@ class InertGroup final : public Group {
   void set_rigid(std::span<const std::uint8_t> rigid) override {
     for (std::size_t e = 0; e < live_.size(); ++e) live_[e] = rigid[e] == 0 ? 1 : 0;
   }
-  [[nodiscard]] ElementOutput output(Index element) const override {
-    ElementOutput out;
-    out.thickness = thickness(element);
-    return out;
-  }
+  [[nodiscard]] ElementOutput output(Index /*element*/) const override { return {}; }
   [[nodiscard]] bool active(Index /*element*/) const override { return true; }
-  [[nodiscard]] double thickness(Index element) const override {
-    return data_.thickness.empty() ? 0.0 : data_.thickness[static_cast<std::size_t>(element)];
-  }
-  [[nodiscard]] PartSums part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* /*pool*/) const override {
+  [[nodiscard]] double thickness(Index /*element*/) const override { return 0.0; }
+  [[nodiscard]] PartSums part_sums(const Vec3* v, const Vec3* /*w*/, parallel::ThreadPool* /*pool*/) const override {
     PartSums sums;
     for (Index e = 0; e < size(); ++e) {
       if (live_[static_cast<std::size_t>(e)] == 0) continue;
@@ -59,7 +49,6 @@ class InertGroup final : public Group {
         sums.mass += m;
         sums.kinetic_energy += 0.5 * m * squared_norm(v[node]);
         sums.momentum += m * v[node];
-        if (!data_.inertia.empty()) sums.rotational_energy += 0.5 * data_.inertia[index(e, k)] * squared_norm(w[node]);
       }
     }
     return sums;

@@ -12,10 +12,8 @@ namespace abut::elements {
 struct InertElements {
   model::ElementKind kind = model::ElementKind::none;
   int nodes_per_element = 0;
-  std::vector<Index> nodes;       ///< #E by nodes_per_element
-  std::vector<double> mass;       ///< #E by nodes_per_element, mass of each node slot
-  std::vector<double> inertia;    ///< same shape, or empty
-  std::vector<double> thickness;  ///< #E, or empty for solids
+  std::vector<Index> nodes;  ///< #E by nodes_per_element
+  std::vector<double> mass;  ///< #E by nodes_per_element, mass of each node slot
 };
 
 /// True when the part's material is LAW0.

@@ -234,14 +234,10 @@ Severity severity_of(contact::Severity s) {
 
 InspectedInterface::InspectedInterface(const model::Model& model, const model::Interface& card, std::span<const Vec3> x,
                                        const InterfaceChoices& choices)
-    : stiffness_scale_(card.stfac), gap_(card.gap) {
-  if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) {
-    surface_ = {t3->surface_1, t3->surface_2};
-  } else if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
-    surface_[1] = t5->surface;
+    : surface_(model::surfaces_of(card)), stiffness_scale_(card.stfac), gap_(card.gap) {
+  if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) {
     nodes_ = t5->nodes;
   } else if (const auto* t7 = std::get_if<model::InterfaceType7>(&card.type)) {
-    surface_[1] = t7->surface;
     nodes_ = t7->nodes;
     pairs_ = both_sides_options(model, card, Profile::standard(), x);
     gap_ = pairs_->largest_gap();
@@ -257,6 +253,20 @@ InspectedInterface::InspectedInterface(const model::Model& model, const model::I
   }
   const auto* t7 = std::get_if<model::InterfaceType7>(&card.type);
   if (t7 != nullptr && t7->istf == 1) stiffness_[1].clear();  // the card gives the stiffness
+}
+
+double InspectedInterface::facet_size(std::span<const Vec3> x) const {
+  double size = 1e300;
+  for (const std::vector<contact::Facet>& facets : facets_) {
+    if (facets.empty()) continue;
+    double sum = 0.0;
+    for (const contact::Facet& f : facets) {
+      const auto corner = [&](std::size_t k) { return x[at(f.node[k])]; };
+      sum += std::sqrt(0.5 * norm(cross(corner(2) - corner(0), corner(3) - corner(1))));
+    }
+    size = std::min(size, sum / static_cast<double>(facets.size()));
+  }
+  return size;
 }
 
 contact::InspectionInput InspectedInterface::input(std::span<const Vec3> x) const {

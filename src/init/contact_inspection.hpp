@@ -61,9 +61,11 @@ class InspectedInterface {
   [[nodiscard]] contact::InspectionInput input(std::span<const Vec3> x) const;
   /// Index into model.surfaces; no_index: a set of nodes.
   [[nodiscard]] Index surface(int side) const { return surface_[static_cast<std::size_t>(side)]; }
+  /// Mean size of the facets of the finer surface; 1e300 without facets.
+  [[nodiscard]] double facet_size(std::span<const Vec3> x) const;
 
  private:
-  std::array<Index, 2> surface_{no_index, no_index};
+  std::array<Index, 2> surface_;
   std::array<std::vector<contact::Facet>, 2> facets_;
   std::array<std::vector<double>, 2> stiffness_;
   std::array<std::vector<std::int8_t>, 2> outward_;

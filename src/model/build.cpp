@@ -32,11 +32,4 @@ Model build(const deck::DeckPair& deck, Diagnostics& diagnostics, int run) {
   return model;
 }
 
-Model load(const std::filesystem::path& starter, Diagnostics& diagnostics) {
-  const deck::DeckPair deck = deck::read(starter, diagnostics);
-  Model model = build(deck, diagnostics);
-  if (diagnostics.has_errors()) throw InputError(diagnostics);
-  return model;
-}
-
 }  // namespace abut::model

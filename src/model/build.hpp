@@ -1,8 +1,6 @@
 // cards -> Model. The only door from the deck's text to the mechanics.
 #pragma once
 
-#include <filesystem>
-
 #include "core/diagnostic.hpp"
 #include "deck/deck.hpp"
 #include "model/model.hpp"
@@ -12,8 +10,5 @@ namespace abut::model {
 /// Interprets and validates a deck. All faults are added to `diagnostics`; the model is usable only if it has no errors.
 /// @param run  Engine decks 1 to `run` are read in this order: each changes what its cards say (deck-format.md A)
 [[nodiscard]] Model build(const deck::DeckPair& deck, Diagnostics& diagnostics, int run = 1);
-
-/// Reads and builds; throws InputError with every finding when there is an error. Warnings and notes are added to `diagnostics`.
-[[nodiscard]] Model load(const std::filesystem::path& starter, Diagnostics& diagnostics);
 
 }  // namespace abut::model

@@ -270,6 +270,13 @@ struct Interface {
   Place place;  ///< where the deck defines it: findings of the inspection name it
 };
 
+/// Surfaces on the two sides of an interface; no_index: a set of nodes.
+[[nodiscard]] inline std::array<Index, 2> surfaces_of(const Interface& card) {
+  if (const auto* t3 = std::get_if<InterfaceType3>(&card.type)) return {t3->surface_1, t3->surface_2};
+  if (const auto* t5 = std::get_if<InterfaceType5>(&card.type)) return {no_index, t5->surface};
+  return {no_index, std::get<InterfaceType7>(card.type).surface};
+}
+
 struct Section {
   Id id = 0;
   std::array<Index, 3> frame_nodes{no_index, no_index, no_index};

@@ -11,13 +11,6 @@
 namespace abut::output {
 namespace {
 
-/// Surfaces on the two sides of an interface; no_index: a set of nodes.
-std::array<Index, 2> surfaces_of(const model::Interface& card) {
-  if (const auto* t3 = std::get_if<model::InterfaceType3>(&card.type)) return {t3->surface_1, t3->surface_2};
-  if (const auto* t5 = std::get_if<model::InterfaceType5>(&card.type)) return {no_index, t5->surface};
-  return {no_index, std::get<model::InterfaceType7>(card.type).surface};
-}
-
 bool is_triangle(const model::Segment& segment) { return segment.nodes[3] == segment.nodes[2]; }
 
 }  // namespace
@@ -34,7 +27,7 @@ VtuGrid contact_surfaces(const model::Model& model) {
   std::vector<Piece> pieces;
   std::size_t cells = 0, corners = 0;
   for (const model::Interface& card : model.interfaces) {
-    const std::array<Index, 2> surfaces = surfaces_of(card);
+    const std::array<Index, 2> surfaces = model::surfaces_of(card);
     for (std::size_t side = 0; side < 2; ++side) {
       if (surfaces[side] == no_index) continue;
       const model::Surface& surface = model.surfaces[static_cast<std::size_t>(surfaces[side])];

@@ -16,15 +16,6 @@ constexpr int looks = 100;             // per run
 constexpr double deep_share = 0.95;    // of the gap
 constexpr double energy_share = 0.02;  // of the largest energy term
 
-double mean_size(std::span<const contact::Facet> facets, std::span<const Vec3> x) {
-  double sum = 0.0;
-  for (const contact::Facet& f : facets) {
-    const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(f.node[k])]; };
-    sum += std::sqrt(0.5 * norm(cross(at(2) - at(0), (f.is_triangle() ? at(2) : at(3)) - at(1))));
-  }
-  return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
-}
-
 std::string counted(std::size_t nodes) { return nodes == 1 ? "1 node" : fmt::format("{} nodes", nodes); }
 
 std::vector<Id> ids_of(const cycle::Snapshot& now, std::span<const Index> nodes) {
@@ -73,11 +64,7 @@ void ContactWatch::begin(const cycle::Snapshot& first) {
     Watched& w = interfaces_[i];
     if (std::holds_alternative<model::InterfaceType7>(card.type)) continue;
     w.facing_at_start = first.interfaces[i].facing;
-    w.size = 1e300;
-    const init::InspectedInterface geometry(*first.model, card, x);
-    for (const contact::InspectedSide& side : geometry.input(x).side) {
-      if (!side.facets.empty()) w.size = std::min(w.size, mean_size(side.facets, x));
-    }
+    w.size = init::InspectedInterface(*first.model, card, x).facet_size(x);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "cycle/cycle.hpp"
 #include "init/contact_inspection.hpp"
+#include "output/element_lookup.hpp"
 #include "run/loaded_model.hpp"
 
 namespace abut {
@@ -12,12 +13,9 @@ namespace {
 /// Keeps what the first cycle of a model without its interfaces shows.
 class FirstCycle final : public cycle::Sink {
  public:
-  explicit FirstCycle(std::vector<double>& part_mass) : part_mass_(part_mass) {}
   void begin(const cycle::Snapshot&) override {}
   void cycle(const cycle::Snapshot& now) override {
-    for (const auto& group : now.groups) {
-      for (Index e = 0; e < group->size(); ++e) part_mass_[static_cast<std::size_t>(group->part())] += group->element_mass(e);
-    }
+    part_mass = output::part_masses(*now.model, now.groups);
     x.assign(now.state->x.begin(), now.state->x.end());
     v.assign(now.state->v.begin(), now.state->v.end());
     mass.assign(now.state->mass.begin(), now.state->mass.end());
@@ -25,11 +23,8 @@ class FirstCycle final : public cycle::Sink {
   }
   void end(const cycle::Outcome&) override {}
   std::vector<Vec3> x, v;
-  std::vector<double> mass;
+  std::vector<double> mass, part_mass;
   double step = 0.0;
-
- private:
-  std::vector<double>& part_mass_;
 };
 
 }  // namespace
@@ -42,13 +37,13 @@ Inspection Model::inspect(const Choices& choices, bool with_step) const {
 Inspection run::inspect(const model::Model& model, const Choices& choices, bool with_step, init::FacingShares* facing) {
   const cycle::RunOptions options = run::options_of(choices, 1);
   Inspection out;
-  out.part_mass.assign(model.parts.size(), 0.0);
-  FirstCycle first(out.part_mass);
+  FirstCycle first;
   {
     cycle::RunOptions bare = options;
     bare.interfaces = false;
     cycle::Cycle(model, bare).advance(first);
   }
+  out.part_mass = std::move(first.part_mass);
   // Choices may change the gap, which a run does not look at the normals with.
   if (!choices.interfaces.empty() || first.x != model.node_x) facing = nullptr;
   out.contact = init::inspect_contacts(model, {first.x, first.v, first.mass, first.step}, choices.interfaces, facing);

@@ -40,15 +40,9 @@ void describe_parts(Model::Impl& m) {
     info.stiffness_scale = i.stfac;
     info.friction = i.friction;
     info.gap = i.gap;
-    if (const auto* t3 = std::get_if<model::InterfaceType3>(&i.type)) info.surface = {t3->surface_1, t3->surface_2};
-    if (const auto* t5 = std::get_if<model::InterfaceType5>(&i.type)) {
-      info.surface[1] = t5->surface;
-      info.nodes = t5->nodes;
-    }
-    if (const auto* t7 = std::get_if<model::InterfaceType7>(&i.type)) {
-      info.surface[1] = t7->surface;
-      info.nodes = t7->nodes;
-    }
+    info.surface = model::surfaces_of(i);
+    if (const auto* t5 = std::get_if<model::InterfaceType5>(&i.type)) info.nodes = t5->nodes;
+    if (const auto* t7 = std::get_if<model::InterfaceType7>(&i.type)) info.nodes = t7->nodes;
     m.interfaces.push_back(std::move(info));
   }
 }

@@ -70,9 +70,7 @@ void write_oriented_deck(const std::filesystem::path& starter, const std::vector
       throw RunError(fmt::format("interface {} is defined in {}, not in the Starter deck itself: --write-deck cannot change it", card.id,
                                  card.place.file));
     const auto keyword = static_cast<std::size_t>(card.place.line) - 1;
-    const auto* t3 = std::get_if<model::InterfaceType3>(&card.type);
-    const auto* t5 = std::get_if<model::InterfaceType5>(&card.type);
-    const Index surface = t3 != nullptr ? (t.side == 0 ? t3->surface_1 : t3->surface_2) : t5->surface;
+    const Index surface = model::surfaces_of(card)[t.side == 0 ? 0 : 1];
     put(lines[card_line(lines, keyword, 2)], t.side == 0 ? 1 : 11, next);
     put(lines[card_line(lines, keyword, 4)], t.side == 0 ? 11 : 21, 2);
     fmt::format_to(std::back_inserter(added), "/SURF/SEG/{}{}surface {} turned to face the other side of interface {}{}", next, line_end,
