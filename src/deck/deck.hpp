@@ -47,6 +47,7 @@ struct Deck {
   std::deque<std::string> texts;   ///< text of each file (kept alive for the views)
   std::string header;              ///< the "#RADIOSS STARTER ..." line, if any
   std::vector<Block> blocks;
+  std::vector<Block> inner_begins;  ///< /BEGIN of included files: not among the blocks, the one of the deck rules (A.8)
 
   [[nodiscard]] Place place(const Block& block) const;
   [[nodiscard]] Place place(const Block& block, const Card& card) const;

@@ -192,15 +192,13 @@ void StarterScanner::open_block(std::string_view text, int file, int line) {
     return;
   }
   // A deck included in another one brings its own /BEGIN: the outer one rules (A.8).
-  skipping_ = file > 0 && block.is(0, "BEGIN");
-  if (skipping_) return;
-  deck_.blocks.push_back(std::move(block));
-  open_ = true;
+  open_ = file > 0 && block.is(0, "BEGIN") ? &deck_.inner_begins : &deck_.blocks;
+  open_->push_back(std::move(block));
 }
 
 void StarterScanner::close_block() {
-  if (open_) trim_blank_cards(deck_.blocks.back());
-  open_ = false;
+  if (open_ != nullptr) trim_blank_cards(open_->back());
+  open_ = nullptr;
   skipping_ = false;
 }
 
@@ -230,8 +228,8 @@ void StarterScanner::scan(int file, std::size_t start, const std::filesystem::pa
       if (included && is_end_of_data(line)) break;
     } else if (in_prose) {
       if (!is_blank_card(line)) ++prose_lines;
-    } else if (open_) {
-      deck_.blocks.back().cards.push_back({line, file, lines.line()});
+    } else if (open_ != nullptr) {
+      open_->back().cards.push_back({line, file, lines.line()});
     } else if (!skipping_ && !told_stray_ && !is_blank_card(line)) {
       told_stray_ = true;
       diagnostics_.warning("deck.stray_line", line_place(deck_, file, lines.line()),

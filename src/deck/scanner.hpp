@@ -37,8 +37,8 @@ class StarterScanner {
   std::filesystem::path main_folder_;
   std::vector<std::filesystem::path> stack_;  ///< files being read, outermost first
   int include_count_ = 0;
-  bool open_ = false;      ///< cards belong to blocks.back()
-  bool skipping_ = false;  ///< cards belong to a block that is ignored
+  std::vector<Block>* open_ = nullptr;  ///< cards belong to its last block; none: before the first keyword, or below a faulty one
+  bool skipping_ = false;               ///< below a faulty keyword
   bool told_stray_ = false;
   bool ended_ = false;  ///< the main file has its /END
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -78,6 +79,33 @@ void read_begin(Context& c, const deck::Block& block) {
   }
   c.input = input;
   c.model->units = work;
+}
+
+/// An included file's own /BEGIN is not read (A.8): a warning where its numbers are then taken for others than it says.
+void compare_inner_begin(Context& c, const deck::Block& block) {
+  const auto field = [&](std::size_t card, deck::Columns columns) {
+    return card < block.cards.size() ? deck::field_text(block.cards[card].text, columns) : std::string_view{};
+  };
+  std::vector<std::string> own, outer;
+  const Id version = deck::parse_integer(field(1, {1, 10})).value_or(0);
+  if (version != 0 && version != c.model->version) {
+    own.push_back(fmt::format("version {}", version));
+    outer.push_back(fmt::format("version {}", c.model->version));
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string_view code = field(2, unit_columns[k]).empty() ? field(3, unit_columns[k]) : field(2, unit_columns[k]);
+    const std::optional<double> size = unit_size(code, unit_bases[k]);
+    if (code.empty() || (size && std::abs(*size / size_of(c.input, k) - 1.0) < 1e-12)) continue;
+    own.push_back(fmt::format("{} in {}", unit_kinds[k], deck::printable(code)));
+    outer.push_back(fmt::format("{} in {}", unit_kinds[k], name_of(c.input, k)));
+  }
+  if (own.empty()) return;
+  const bool units_alone = version == 0 || version == c.model->version;
+  c.diagnostics->warning(
+      "model.inner_begin", c.deck->place(block),
+      fmt::format("the /BEGIN of an included file is not read: it says {}, and the file is read with {}, as the deck that "
+                  "includes it; convert the file{}",
+                  fmt::join(own, ", "), fmt::join(outer, ", "), units_alone ? ", or give its keywords a /UNIT" : ""));
 }
 
 /// Header line of decks up to version 44: columns 17-24 version, 25-40 run name.
@@ -212,6 +240,7 @@ void read_control(Context& c) {
   for (const deck::Block& b : blocks) {
     if (b.is(0, "UNIT")) read_unit(c, b);
   }
+  for (const deck::Block& b : c.deck->inner_begins) compare_inner_begin(c, b);
   take_name_of_file(c);
   bool shell_defaults = false;
   bool solid_defaults = false;

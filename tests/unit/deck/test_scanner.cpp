@@ -206,6 +206,9 @@ TEST(Include, Surprise4And5WholeDeckWithItsOwnBeginAndEnd) {
   EXPECT_EQ(names, (std::vector<std::string>{"/BEGIN", "/NODE", "/PART/1", "/NODE"}));
   EXPECT_EQ(pair.starter.blocks[0].cards.size(), 2u);
   EXPECT_EQ(pair.starter.blocks[1].cards.size(), 1u);
+  ASSERT_EQ(pair.starter.inner_begins.size(), 2u);  // kept aside, to compare
+  EXPECT_EQ(pair.starter.inner_begins[0].cards[1].text, "      2019");
+  EXPECT_EQ(pair.starter.inner_begins[1].cards.size(), 1u);
 }
 
 TEST(Include, MissingFileNamesWhereItWasSearched) {

@@ -48,6 +48,32 @@ TEST(Control, WorkUnitsConvertEveryDimension) {
   EXPECT_EQ(r.model.units.length_name, "m");
 }
 
+// Numbers of an included file are read as the outer deck says (A.8): said where its own /BEGIN says another thing.
+TEST(Control, BeginOfAnIncludedFileIsComparedWithTheDecks) {
+  const auto warnings = [](const std::string& outer, const std::string& inner) {
+    Reading r;
+    const deck::Deck included = deck::read_starter_text(inner + "/END\n", "block.inc", r.diagnostics);
+    r.deck = deck::read_starter_text(outer + "/END\n", "t_0000.rad", r.diagnostics);
+    r.deck.inner_begins = included.blocks;
+    r.attach();
+    read_control(r.context);
+    EXPECT_EQ(r.errors(), Strings{});
+    return r.messages(Severity::warning);
+  };
+  const std::string outer = begin("2022", {"kg", "mm", "ms"}, {"kg", "m", "s"});
+  EXPECT_EQ(
+      warnings(outer, begin("2022", {"g", "m", "ms"}, {})),
+      (Strings{"t_0000.rad:1: warning: /BEGIN: the /BEGIN of an included file is not read: it says mass in g, length in m, and the file "
+               "is read with mass in kg, length in mm, as the deck that includes it; convert the file, or give its keywords a /UNIT"}));
+  EXPECT_EQ(warnings(outer, begin("44", {}, {"kg", "mm", "s"})).size(), 1U);
+  EXPECT_EQ(warnings(outer, begin("44", {}, {})),
+            (Strings{"t_0000.rad:1: warning: /BEGIN: the /BEGIN of an included file is not read: it says version 44, and the file is read "
+                     "with version 2022, as the deck that includes it; convert the file"}));
+  EXPECT_EQ(warnings(outer, begin("2022", {"1.", "1e-3", ".001"}, {"Mg", "mm", "s"})), Strings{});  // work units are the deck's own affair
+  EXPECT_EQ(warnings(outer, begin("0", {"", "mm", ""}, {})), Strings{});
+  EXPECT_EQ(warnings(outer, "/BEGIN\nname\n"), Strings{});
+}
+
 TEST(Control, Surprise15OneSystemServesForBothAndNumbersAreUnits) {
   Reading input_only;
   input_only.read(begin("2022", {"1.D0", "0.001", "mus"}, {}));
