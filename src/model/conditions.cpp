@@ -1,6 +1,10 @@
 // Boundary conditions, initial velocities, imposed motion and loads (deck-format.md D.1 to D.6).
 #include <fmt/format.h>
 
+#include <map>
+#include <utility>
+
+#include "deck/text.hpp"
 #include "model/condition_fields.hpp"
 #include "model/condition_readers.hpp"
 
@@ -228,6 +232,28 @@ void read_gravity(Context& c, const deck::Block& block) {
   c.model->gravities.push_back(std::move(g));
 }
 
+/// Added masses, initial velocities and imposed motions whose block comes a second time, as in a file that is included twice.
+void report_blocks_twice(Context& c) {
+  std::map<std::pair<std::string, Id>, const deck::Block*> first;  // null: told
+  for (const deck::Block& block : c.deck->blocks) {
+    const bool mass = is_keyword(block, "ADMAS"), velocity = is_keyword(block, "INIVEL");
+    if (!mass && !velocity && !is_keyword(block, "IMPVEL") && !is_keyword(block, "IMPDISP") && !is_keyword(block, "IMPACC")) continue;
+    const std::size_t id_word = mass || velocity ? 2 : 1;
+    const std::optional<Id> id = deck::parse_integer(block.word(id_word));
+    if (!id || *id == 0 || is_refused(block)) continue;
+    const std::string name = "/" + deck::to_upper(block.word(0)) + (id_word == 2 ? "/" + deck::to_upper(block.word(1)) : "");
+    const auto [known, is_new] = first.try_emplace({name, *id}, &block);
+    if (is_new || known->second == nullptr) continue;
+    const Place place = c.deck->place(*std::exchange(known->second, nullptr));
+    std::string_view then = "both are read";
+    if (mass) then = "both act";
+    if (velocity) then = "where both name a node the last one counts";
+    c.diagnostics->warning(
+        "model.duplicate_id", c.deck->place(block),
+        fmt::format("a second {} with id {} (the first is at {}:{}): {}; ids should be unique", name, *id, place.file, place.line, then));
+  }
+}
+
 }  // namespace
 
 void read_conditions(Context& c) {
@@ -245,6 +271,7 @@ void read_conditions(Context& c) {
     if (is_keyword(block, "RBODY")) read_rigid_body(c, block);
     if (is_keyword(block, "RWALL")) read_rigid_wall(c, block);
   }
+  report_blocks_twice(c);
   Model& m = *c.model;
   order_by_id(c, m.boundary_conditions, "BCS", true);
   std::stable_sort(m.imposed_motions.begin(), m.imposed_motions.end(),

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "model/mesh.hpp"
 #include "model/sort_by_id.hpp"
@@ -124,8 +125,13 @@ void read_functions(Context& c) {
     places.push_back(r.place());
   }
   sort_by_id(c, c.model->functions, places, "/FUNCT", c.tables.functions);
+  std::map<Id, Place> moved;
   for (const deck::Block& b : c.deck->blocks) {
-    if (b.is(0, "MOVE_FUNCT")) move_function(c, b);
+    if (!b.is(0, "MOVE_FUNCT")) continue;
+    const Id id = deck::parse_integer(b.word(1)).value_or(0);
+    const auto [first, is_new] = moved.try_emplace(id, c.deck->place(b));
+    if (!is_new && id != 0) report_duplicate(c, "/MOVE_FUNCT", id, c.deck->place(b), first->second);
+    move_function(c, b);
   }
 }
 

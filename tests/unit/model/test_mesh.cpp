@@ -185,6 +185,14 @@ TEST(Functions, MoveFunctionScalesShiftsAndReverses) {
   EXPECT_EQ(r.model.functions[0].y, (std::vector<double>{15.0, 11.0}));
 }
 
+TEST(Functions, AFunctionIsMovedOnce) {
+  Reading r;
+  const std::string move = "/MOVE_FUNCT/4\nm\n" + reals({"0", "2"});
+  r.read(std::string(begin_2022) + "/FUNCT/4\nf\n" + reals({"0", "1"}) + reals({"2", "5"}) + move + move);
+  EXPECT_EQ(r.errors(),
+            (Strings{"t_0000.rad:13: /MOVE_FUNCT/4: a second /MOVE_FUNCT with id 4 (the first is at t_0000.rad:10): ids must be unique"}));
+}
+
 TEST(Functions, Surprise9MissingFieldsOfMoveFunctionAreZero) {
   Reading r;
   r.read(std::string(begin_2022) + "/FUNCT/4\nf\n" + reals({"0", "1"}) + reals({"2", "5"}) + "/MOVE_FUNCT/4\nm\n" + reals({"2"}));
