@@ -46,6 +46,17 @@ def test_arrays_that_are_refused(name, value, error, words):
         made.evaluate(**arguments)
 
 
+def test_positions_that_were_not_searched_are_refused():
+    """Forces are those of search()'s positions; those of evaluate() are compared with them."""
+    x, made = interface()
+    force, stiffness = np.zeros((8, 3)), np.zeros(8)
+    made.search(x, np.zeros_like(x))
+    with pytest.raises(RuntimeError, match=r"evaluate\(\) got other positions than search\(\) in this step"):
+        made.evaluate(x + [0.0, 0.0, 5.0], np.zeros_like(x), force, stiffness)
+    assert not force.any()
+    made.evaluate(x, np.zeros_like(x), force, stiffness)
+
+
 def test_a_step_that_is_none_adds_nothing():
     x, made = interface()
     force, stiffness = np.zeros((8, 3)), np.zeros(8)

@@ -269,7 +269,8 @@ void bind_interface(py::module_& m) {
            "Adds forces into force (N, 3) and nodal contact stiffness into stiffness (N,): float64, C order, writable.\n\n"
            "A host is stable with h <= sqrt(2 m/K) for the stiffness K of elements and contacts at every node.\n"
            "mass: (N,), 0 for a node that cannot move; time: t^n; dt: the step that ended at t^n, None: the last one committed.\n"
-           "Raises RuntimeError without a search() in this step, ValueError as search().")
+           "x: those of search(), of which a few are compared. Raises RuntimeError without a search() in this step and where they differ,\n"
+           "ValueError as search().")
       .def("commit", &commit, "dt"_a,
            "Friction and energy history move on; dt > 0 is the step that the host takes now.\n\n"
            "Raises ValueError for a dt that is not positive, RuntimeError without an evaluate() in this step.")

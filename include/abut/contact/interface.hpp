@@ -132,7 +132,9 @@ class Interface {
   /// Once per step, after search: `commit` moves its results into the history.
   /// @param force     #N by 3: contact forces are added
   /// @param stiffness #N: contact stiffness is added (numerics.md 2.3 convention: h <= sqrt(2 m / K))
-  /// @throws std::logic_error without a search in this step, std::invalid_argument as search() and when a span is too short
+  /// Forces are those of search()'s positions: a few nodes are compared, so that other ones do not pass for them.
+  /// @throws std::logic_error without a search in this step and where one of these has moved since, std::invalid_argument as search()
+  ///         and when a span is too short
   StepResult evaluate(const HostState& host, std::span<Vec3> force, std::span<double> stiffness);
   /// Sets to zero what the last evaluate() added to (of both_sides: at all of its nodes), for hosts that keep forces and stiffness of
   /// contact apart and would else clear all of their arrays in every step. After restore() it knows of nothing.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -40,6 +41,27 @@ struct Interface::Made {
   /// Committed last; NaN after restore(), since the history does not say it.
   double last_step = 0.0;
   double ended = 0.0, step_before = 0.0;  ///< the step that ended when evaluate() was called last, and when it was committed
+  std::array<Vec3, 8> searched = {};      ///< where the looked_at() nodes were in search()
+
+  /// Node `k` of a few, spread over both sides; no_index: none.
+  [[nodiscard]] Index looked_at(std::size_t k) const {
+    const std::span<const Index> nodes = model->side(k % 2).nodes();
+    return nodes.empty() ? no_index : nodes[(k / 2) * (nodes.size() - 1) / 3];
+  }
+  void keep_positions(std::span<const Vec3> x) {
+    for (std::size_t k = 0; k < searched.size(); ++k) {
+      if (const Index node = looked_at(k); node != no_index) searched[k] = x[static_cast<std::size_t>(node)];
+    }
+  }
+  /// Forces are those of the pairs and positions that search() saw.
+  void check_positions(std::span<const Vec3> x) const {
+    for (std::size_t k = 0; k < searched.size(); ++k) {
+      const Index node = looked_at(k);
+      if (node == no_index || std::memcmp(&x[static_cast<std::size_t>(node)], &searched[k], sizeof(Vec3)) == 0) continue;
+      throw std::logic_error("contact: evaluate() got other positions than search() in this step (node " + std::to_string(node) +
+                             " has moved): search() comes first where nodes have moved");
+    }
+  }
 
   /// The recipe as it was before the model was made.
   [[nodiscard]] Recipe whole_recipe() const {
@@ -219,6 +241,7 @@ void Interface::search(const HostState& given) {
   const HostState host = made_->with_steps(given);
   if (made_->recorder) made_->recorder->search(host);
   made_->model->search(host);
+  made_->keep_positions(host.x);
   made_->stage = Made::Stage::searched;
 }
 
@@ -227,6 +250,7 @@ StepResult Interface::evaluate(const HostState& given, std::span<Vec3> force, st
   made_->check(given);
   made_->check(force.size(), "force");
   made_->check(stiffness.size(), "stiffness");
+  made_->check_positions(given.x);
   const HostState host = made_->with_steps(given);
   if (made_->recorder) made_->recorder->evaluate(host, force, stiffness);
   const StepResult result = made_->model->evaluate(host, force, stiffness);

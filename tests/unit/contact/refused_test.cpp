@@ -62,6 +62,36 @@ TEST(Refused, times_and_steps) {
   }
 }
 
+// Forces are those of the positions that were searched: other ones are not taken for them, and leave everything as it was.
+TEST(Refused, positions_that_were_not_searched) {
+  const auto refused = [](Host host, Interface i, bool two_sides) {
+    for (int side = two_sides ? 0 : 1; side < 2; ++side) test::set_stiffness(i, side, 1, 1e4);
+    std::vector<Vec3> force(host.x.size());
+    std::vector<double> stiffness(host.x.size());
+    i.search(host.state());
+    for (std::size_t node = 4; node < 8; ++node) {
+      Host moved = host;
+      moved.x[node].z -= 0.03;
+      EXPECT_THROW((void)i.evaluate(moved.state(), force, stiffness), std::logic_error) << node;
+      EXPECT_EQ(force, std::vector<Vec3>(host.x.size()));
+    }
+    const StepResult here = i.evaluate(host.state(), force, stiffness);
+    EXPECT_GT(here.in_contact, 0);
+    for (Vec3& x : host.x) x.z *= 0.5;
+    EXPECT_THROW((void)i.evaluate(host.state(), force, stiffness), std::logic_error);  // no search in this step
+    i.search(host.state());
+    EXPECT_GT(i.evaluate(host.state(), force, stiffness).elastic, here.elastic);
+  };
+  Host host;
+  const Surface lower(grid(host, 1, 1, -0.5, 1.5, -0.5, 1.5, flat));
+  const Surface upper(grid(
+      host, 1, 1, 0.0, 1.0, 0.0, 1.0, [](double, double) { return 0.05; }, false, false, 1.0));
+  Options o;
+  o.gap = 0.1;
+  refused(host, Interface::two_surfaces(lower, upper, o), true);
+  refused(host, Interface::nodes_to_surface({4, 5, 6, 7}, {}, lower, o), false);
+}
+
 /// What the first search says of an interface whose sides have been given stiffness or not; nothing: it is made.
 std::string said(Interface i, const Host& host, bool first, bool second) {
   if (first) test::set_stiffness(i, 0, 1, 1.0);
