@@ -162,7 +162,7 @@ class Run {
   [[nodiscard]] std::span<const Diagnostic> initial_findings() const;      ///< of reading and of the inspection, as text
   [[nodiscard]] std::span<const ContactFinding> contact_findings() const;  ///< of the inspection before the run
   [[nodiscard]] std::span<const RunFinding> findings() const;              ///< of the run so far
-  [[nodiscard]] std::vector<PhaseTime> timings() const;                    ///< wall-clock time so far
+  [[nodiscard]] std::vector<PhaseTime> timings() const;                    ///< wall-clock time of this session so far
   [[nodiscard]] const std::filesystem::path& output() const;               ///< run folder; empty: none
 
  private:

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <utility>
@@ -78,8 +79,27 @@ void Manifest::begin(const cycle::Snapshot& first) {
   write_atomically(folder_.manifest(), json_text(j));
 }
 
+std::vector<PhaseTime> Manifest::all_timings() const {
+  std::vector<PhaseTime> all = timings_ ? timings_() : std::vector<PhaseTime>{};
+  for (const PhaseTime& earlier : earlier_) {
+    const auto now = std::find_if(all.begin(), all.end(), [&earlier](const PhaseTime& phase) { return phase.name == earlier.name; });
+    if (now == all.end()) {
+      all.push_back(earlier);
+    } else {
+      now->seconds += earlier.seconds;
+    }
+  }
+  return all;
+}
+
 void Manifest::persist(state::Archive& a) {
   record_.persist(a);
+  std::vector<PhaseTime> phases = all_timings();
+  a.each_growing(phases, [&a](PhaseTime& phase) {
+    a(phase.name);
+    a(phase.seconds);
+  });
+  if (a.loading()) earlier_ = std::move(phases);
   a(started_);
   a.each_growing(resumed_, [&a](Resumed& r) {
     a(r.cycle);
@@ -98,9 +118,7 @@ void Manifest::end(const cycle::Outcome& outcome) {
                   {"wall_seconds", record_.wall_seconds()},
                   {"element_cycles_per_second", record_.rate(outcome.cycles)}};
   j["timings"] = Json::array();
-  if (timings_) {
-    for (const PhaseTime& phase : timings_()) j["timings"].push_back({{"name", phase.name}, {"seconds", phase.seconds}});
-  }
+  for (const PhaseTime& phase : all_timings()) j["timings"].push_back({{"name", phase.name}, {"seconds", phase.seconds}});
   const state::Balance& b = record_.balance();
   j["energies"] = energies_json(b);
   j["mass"] = {{"total", b.mass}, {"added", b.added_mass}, {"error", mass_error(b)}};

@@ -25,7 +25,7 @@ namespace abut::output {
 /// at the end also outcome, timings, energies, worst, hashes (16 hexadecimal digits). Numbers that are not finite become null.
 class Manifest final : public cycle::Sink {
  public:
-  /// @param timings  asked for at the end; may be empty
+  /// @param timings  of this session; asked for at the end and when a checkpoint is written; may be empty
   Manifest(RunFolder folder, RunInfo info, std::function<std::vector<PhaseTime>()> timings);
 
   void begin(const cycle::Snapshot& first) override;
@@ -37,6 +37,7 @@ class Manifest final : public cycle::Sink {
   RunFolder folder_;
   RunInfo info_;
   std::function<std::vector<PhaseTime>()> timings_;
+  std::vector<PhaseTime> earlier_;  ///< of the sessions before
   RunRecord record_;
   std::string head_;     ///< what begin() wrote, as JSON text
   std::string started_;  ///< when the first session began
@@ -46,6 +47,9 @@ class Manifest final : public cycle::Sink {
     std::string at;  ///< when
   };
   std::vector<Resumed> resumed_;
+
+  /// Of all sessions of the run.
+  [[nodiscard]] std::vector<PhaseTime> all_timings() const;
 };
 
 }  // namespace abut::output

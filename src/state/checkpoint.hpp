@@ -14,7 +14,7 @@
 namespace abut::state {
 
 /// Rises with every change of the frame. 1: the length stood before the content. 2: checksum of one row of words.
-inline constexpr std::uint32_t checkpoint_format = 4;
+inline constexpr std::uint32_t checkpoint_format = 5;
 
 /// FNV-1a over 64-bit words, the last one filled with zeros: four rows of every fourth word, which need not wait for each other, and in the
 /// end over the four. Any single change of a word changes it.

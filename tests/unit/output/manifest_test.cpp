@@ -2,6 +2,7 @@
 #include "output/manifest.hpp"
 
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"
@@ -74,6 +75,36 @@ TEST_F(ManifestTest, TheEndAddsOutcomeTimingsEnergiesWorstAndHashes) {
   EXPECT_EQ(j["worst"]["CX"], json({{"value", 3.0}, {"time", 1.0}}));
   EXPECT_EQ(j["hashes"], json({{{"cycle", 0}, {"state", "ffffffffffffff00"}}, {{"cycle", 2}, {"state", "ffffffffffffff02"}}}));
   EXPECT_EQ(j["model"]["nodes"], 12);  // what begin() wrote is kept
+}
+
+TEST_F(ManifestTest, TimesArePhaseByPhaseThoseOfAllSessions) {
+  const auto timings = [](double share) {
+    return [share] {
+      return std::vector<PhaseTime>{{"read", 0.25}, {"elements", share}, {"elements bricks", 0.5 * share}, {"run", 2 * share}};
+    };
+  };
+  state::Archive first, second;
+  {
+    Manifest sink(folder_, {}, timings(1.0));
+    sink.begin(scene_.snapshot());
+    sink.persist(first);
+  }
+  {
+    Manifest sink(folder_, {}, timings(8.0));
+    state::Archive from(first.bytes());
+    sink.persist(from);
+    sink.begin(scene_.snapshot());
+    sink.persist(second);
+  }
+  Manifest sink(folder_, {}, timings(64.0));
+  state::Archive from(second.bytes());
+  sink.persist(from);
+  sink.begin(scene_.snapshot());
+  sink.end({cycle::Outcome::Kind::finished, "", 3, 1.0});
+  std::map<std::string, double> seconds;
+  const json j = read();
+  for (const json& phase : j["timings"]) seconds[phase["name"]] = phase["seconds"];
+  EXPECT_EQ(seconds, (std::map<std::string, double>{{"read", 0.75}, {"elements", 73.0}, {"elements bricks", 36.5}, {"run", 146.0}}));
 }
 
 TEST_F(ManifestTest, ABadTitleAndANumberThatIsNoneStillGiveJson) {
