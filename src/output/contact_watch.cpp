@@ -56,8 +56,9 @@ std::string ContactWatch::first_ids(const Where& where) {
 }
 
 void ContactWatch::begin(const cycle::Snapshot& first) {
+  const bool told = !interfaces_.empty();  // by a checkpoint, of the start of the run
   interfaces_.resize(first.model->interfaces.size());
-  if (loaded_) return;
+  if (told) return;
   const std::span<const Vec3> x(first.model->node_x);
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     const model::Interface& card = first.model->interfaces[i];
@@ -69,7 +70,6 @@ void ContactWatch::begin(const cycle::Snapshot& first) {
 }
 
 void ContactWatch::persist(state::Archive& a) {
-  loaded_ = a.loading();
   a.each_growing(interfaces_, [&a](Watched& w) {
     a(w.facing_at_start);
     a(w.size);

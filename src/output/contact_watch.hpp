@@ -34,7 +34,6 @@ class ContactWatch final : public cycle::Sink {
   std::shared_ptr<RunFindings> log_;
   std::vector<Watched> interfaces_;
   double next_look_ = 0.0;
-  bool loaded_ = false;               ///< persist() has told what is known; begin() keeps it
   std::int64_t next_look_cycle_ = 0;  ///< no look before this cycle: a look costs about as much as some cycles
 
   void look(const cycle::Snapshot& now);

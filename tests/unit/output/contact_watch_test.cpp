@@ -158,6 +158,46 @@ TEST_F(Watched, WhatTheInspectionFoundIsOfTheStartOnly) {
   EXPECT_EQ(first_look(), (std::array{1.0, 1.0}));
 }
 
+// A run that was loaded, and saved again before it went on, says of the start what the run said that was saved. One that was saved before
+// its first cycle looks at it in its first cycle.
+TEST_F(Watched, TheStartIsThatOfTheRunHoweverOftenItIsSaved) {
+  cycle::Snapshot now;
+  now.model = &scene_.model;
+  now.state = &state_;
+  now.balance = &balance_;
+  now.interfaces = interfaces_;
+  state::Archive before, first, second;
+  ContactWatch unbegun(log_);
+  unbegun.persist(before);
+  ContactWatch whole(log_);
+  state::Archive from_before(before.bytes());
+  whole.persist(from_before);
+  interfaces_[0].facing = {1.0, 1.0};
+  whole.begin(now);
+  whole.persist(first);
+  const auto loaded_log = std::make_shared<RunFindings>();
+  ContactWatch loaded(loaded_log);
+  state::Archive from_first(first.bytes());
+  loaded.persist(from_first);
+  loaded.persist(second);
+  interfaces_[0].facing = {0.75, 0.75};
+  loaded.begin(now);
+  ContactWatch again(log_);
+  state::Archive from_second(second.bytes());
+  again.persist(from_second);
+  again.begin(now);
+  interfaces_[0].facing = {0.0, 0.0};
+  for (const Index n : upper_) {
+    state_.x[static_cast<std::size_t>(n)] = turned(scene_.model.node_x[static_cast<std::size_t>(n)], std::numbers::pi);
+  }
+  loaded.cycle(now);
+  again.cycle(now);
+  for (const auto& found : {loaded_log, log_}) {
+    ASSERT_EQ(found->size(), 1u);
+    EXPECT_NE((*found)[0].diagnostic.message.find("(at the start 100 %)"), std::string::npos) << (*found)[0].diagnostic.message;
+  }
+}
+
 /// Nodes that cross or get lost in different cycles are one finding: distinct nodes, from the first time on.
 TEST_F(Watched, NodesLostAndCrossedAreCountedOverTheRun) {
   ContactWatch watch(log_);
