@@ -16,7 +16,7 @@
 namespace abut::output {
 namespace {
 
-/// A plate of shells over another one, normals facing, 0.1 apart; the upper one is moved by the test. 20 cycles to a unit of time.
+/// A plate of shells over another one, normals facing, 0.1 apart; the upper one is moved by the test. 800 cycles to a unit of time.
 class Watched : public testing::Test {
  protected:
   static constexpr int cells = 4;
@@ -44,7 +44,8 @@ class Watched : public testing::Test {
   }
 
   /// Moves the upper plate's nodes to place(X, x of the middle of the node's strip, tau), tau from 0 to 1 over the run.
-  const RunFindings& run(const std::function<Vec3(Vec3, double, double)>& place, int cycles = 6000) {
+  const RunFindings& run(const std::function<Vec3(Vec3, double, double)>& place) {
+    constexpr int cycles = 24000;
     ContactWatch watch(log_);
     cycle::ContactFacing facing(scene_.model, {});
     facing.look(state_, interfaces_);
