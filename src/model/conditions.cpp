@@ -57,6 +57,7 @@ void refuse_delay(BlockReader& r) {
 
 void read_uniform_velocity(Context& c, const deck::Block& block, bool rotational) {
   BlockReader r(c, block, 2, true);
+  r.last_column(80);
   InitialVelocity v;
   v.id = r.id();
   v.rotational = rotational;
@@ -70,6 +71,7 @@ void read_uniform_velocity(Context& c, const deck::Block& block, bool rotational
 
 void read_axis_velocity(Context& c, const deck::Block& block) {
   BlockReader r(c, block, 2, true);
+  r.last_column(80);
   InitialVelocity v;
   v.about_axis = true;
   v.id = r.id();
@@ -112,6 +114,7 @@ void read_initial_velocity(Context& c, const deck::Block& block) {
 
 void read_imposed_motion(Context& c, const deck::Block& block, ImposedMotion::Kind kind) {
   BlockReader r(c, block, 1, true);
+  r.last_column(80);
   ImposedMotion m;
   m.id = r.id();
   m.kind = kind;

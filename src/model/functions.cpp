@@ -48,6 +48,7 @@ Vec3 read_vector(BlockReader& r, std::string_view x, std::string_view y, std::st
 
 /// z' is kept, x' = y' x z', y' = z' x x' (numerics.md 6.6.1).
 void read_fixed_axes(BlockReader& r, Skew& s, bool has_origin) {
+  r.last_column(60);
   if (has_origin) r.next_card();
   r.next_card();
   const Vec3 y = read_vector(r, "X1", "Y1", "Z1");
@@ -108,7 +109,6 @@ void read_functions(Context& c) {
   for (const deck::Block& b : c.deck->blocks) {
     if (!b.is(0, "FUNCT")) continue;
     BlockReader r(c, b, 1, true);
-    r.last_column(40);
     Function f;
     f.id = r.id();
     f.x.reserve(b.cards.size());

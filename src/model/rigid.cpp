@@ -115,6 +115,7 @@ void read_rigid_wall(Context& c, const deck::Block& block) {
   w.filter = filter_factor(r, {61, 80}, "ffac", w.filter_kind, "ifq");
   if (w.filter == 0.0) w.filter_kind = 0;
   r.next_card();
+  r.last_column(moving ? 80 : 60);
   if (moving) {
     w.mass = r.real({1, 20}, "Mass", dim::mass);
     if (w.mass < 0.0) r.error("model.out_of_range", {1, 20}, "Mass", "an added mass cannot be negative; write 0 or more");
@@ -124,6 +125,7 @@ void read_rigid_wall(Context& c, const deck::Block& block) {
     w.point = read_reals(r, {"XM", "YM", "ZM"}, dim::length);
   }
   r.next_card();
+  r.last_column(60);
   const Vec3 normal = read_reals(r, {"X_M1", "Y_M1", "Z_M1"}, dim::length) - w.point;
   w.normal = normalized(normal);
   if (w.normal == Vec3{}) {

@@ -100,7 +100,11 @@ TEST(FieldEdges, ANumberRightOfAllFieldsIsAWarning) {
             "read");
   EXPECT_TRUE(build_changed("/CLOAD/1", 2, integers({"1", "X", "1", "0", "5", ""}) + reals({"0", "3"}) + "   4")
                   .has("(columns 104-104): '4' stands right of the last field, which ends in column 100, and is not read"));
-  EXPECT_TRUE(build_changed("/FUNCT/1", 3, reals({"1", "1", "2"})).has("/FUNCT/1 (columns 60-60): '2' stands right of the last field"));
+  EXPECT_TRUE(build_changed("/IMPVEL/1", 3, reals({"1", "-2", "0", "0", "0.5"})).has("/IMPVEL/1 (columns 98-100): '0.5' stands right of"));
+  EXPECT_TRUE(build_changed("/INIVEL/TRA/1", 2, reals({"0", "0", "-10"}) + integers({"2", "0", "1"})).has("/INIVEL/TRA/1 (columns 90-90)"));
+  EXPECT_TRUE(build_changed("/SKEW/FIX/1", 3, reals({"0", "1", "0", "1"})).has("/SKEW/FIX/1 (columns 80-80): '1' stands right of"));
+  EXPECT_TRUE(build_changed("/RWALL/PLANE/1", 5, reals({"0", "0", "1", "1"})).has("/RWALL/PLANE/1 (columns 80-80): '1' stands right of"));
+  EXPECT_EQ(build_changed("/FUNCT/1", 3, reals({"1", "1", "2"})).messages(), Messages{});  // real decks have a third column
   EXPECT_TRUE(build_changed("/MAT/ELAST/1", 3, reals({"210", "0", "0.3"})).has("/MAT/ELAST/1 (columns 58-60): '0.3' stands right of the"));
   EXPECT_EQ(build_changed("/PART/3", 2, integers({"2", "2", "0"}) + reals({"0"}) + "         0  # plate 1").messages(), Messages{});
   EXPECT_EQ(build_changed("/NODE", 16, node_16 + reals({"2.1"}) + " corner 4").messages(), Messages{});
