@@ -178,7 +178,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   const T gxy = (g.py1 * vx13 + g.py2 * vx24) * inverse_area, gyx = (g.px1 * vy13 + g.px2 * vy24) * inverse_area;
   rate.gxy = gxy + gyx;
   if (q.midpoint) {
-    // h W of the rotation W = (gy, -gx, omega), half of it: the frame of mid-step is e1 - a e2 - b e3, e2 + a e1 - c e3, e3 + b e1 + c e2.
+    // Half a step's turn is (c, -b, a): the frame of mid-step is e1 - a e2 - b e3, e2 + a e1 - c e3, e3 + b e1 + c e2.
     const T half = T(0.5 * h), dxx = rate.exx, dyy = rate.eyy;
     const T a = half * (T(0.5) * (gyx - gxy)), b = half * gx, c = half * gy;
     membrane_at_midpoint(rate, dxx, gxy, gyx, dyy, gx, gy, T(h), 0.0, !q.may_freeze);
