@@ -6,12 +6,17 @@ import abut
 from support import builder, one_cube
 
 
-def test_changed_velocities_are_booked_as_external_work():
+def cube_after_five_cycles():
     b = builder()
     one_cube(b)
     b.engine(1.0)
     run = abut.Run(b.build())
     run.advance(5)
+    return run
+
+
+def test_changed_velocities_are_booked_as_external_work():
+    run = cube_after_five_cycles()
     with run.edit() as e:
         e.velocities[:, 0] += 2.0
         e.velocities[3:5] += (0.0, 0.5, 0.0)
@@ -34,11 +39,7 @@ def test_changed_velocities_are_booked_as_external_work():
 
 
 def test_an_edit_is_of_its_cycle():
-    b = builder()
-    one_cube(b)
-    b.engine(1.0)
-    run = abut.Run(b.build())
-    run.advance(5)
+    run = cube_after_five_cycles()
     with pytest.raises(RuntimeError, match=r"from cycle 5 to 7 inside the block of edit\(\)"):
         with run.edit() as e:
             e.velocities[:, 0] += 2.0
