@@ -181,9 +181,10 @@ const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
   constexpr double worth_a_word = 0.05;
   if (const double error = cycle->balance().err; kind != Outcome::Kind::failed && std::abs(error) > worth_a_word) {
     tell("run.energy_error",
-         fmt::format("at the end {:.3g} % of the largest energy has been {} by no term of the balance: a smaller time step (/DT scale) shows "
-                     "whether the result depends on it",
-                     100.0 * std::abs(error), error > 0.0 ? "made" : "lost"));
+         fmt::format(
+             "at the end {:.3g} % of the largest energy has been {} by no term of the balance: a smaller time step (/DT scale) shows "
+             "whether the result depends on it",
+             100.0 * std::abs(error), error > 0.0 ? "made" : "lost"));
   }
   for (std::size_t k = 0; k < call_logs_.size(); ++k) {
     if (call_logs_[k].tellp() != 0) continue;
