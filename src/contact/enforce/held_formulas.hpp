@@ -361,6 +361,29 @@ ABUT_INLINE void ordinary_nodes(const HeldRules& rules, HeldBatch& b, int k) {
     store(b.slips + k, simd::select(size >= T(1.0 - 1e-9) * limit, one, zero));
     store(b.tangential_stiffness + k, kt_now);
     store3(b.on_surface, k, friction);
+    // Its couple. X_ss = X_tt = 0: the metric has the diagonal of A.
+    const T g12 = dot(xs, xt), over = one / (q.a11 * q.a22 - g12 * g12);
+    T i11 = over * q.a22, i12 = -(over * g12), i22 = over * q.a11;
+    if (simd::any(at_end)) {
+      i12 = simd::select(at_end, zero, i12);
+      i11 = simd::select(q.at_end_s, zero, simd::select(q.at_end_t, one / q.a11, i11));
+      i22 = simd::select(q.at_end_t, zero, simd::select(q.at_end_s, one / q.a22, i22));
+    }
+    const T fs = dot(friction, xs), ft = dot(friction, xt);
+    const T with_s = i11 * fs + i12 * ft, with_t = i12 * fs + i22 * ft;
+    const T s4[4] = {-(quarter * s0), -(quarter * s1), quarter * s1, quarter * s0}, t4[4] = {-t0, t0, t1, -t1};
+    const T square_of_r = dot(r, r);
+    T arm[4], arms = one;
+    for (int i = 0; i < 4; ++i) {
+      const V<T> f = load3<T>(b.on_corner[i], k);
+      store3(b.on_corner[i], k, f - (with_s * t4[i] + with_t * s4[i]) * r);
+      const T square = (i11 * (t4[i] * t4[i]) + T(2.0) * (i12 * (t4[i] * s4[i]))) + i22 * (s4[i] * s4[i]);
+      arm[i] = simd::sqrt(h[i] * h[i] + square_of_r * simd::max(square, zero));
+      arms = arms + arm[i];
+    }
+    const T weights = one + reach_of_weights;
+    for (int i = 0; i < 4; ++i) store(b.couple_stiffness[i] + k, half * (kt_now * (arm[i] * arms - simd::abs(h[i]) * weights)));
+    store(b.couple_stiffness[4] + k, half * (kt_now * (arms - weights)));
     store3(b.slip, k, V<T>{dot(now, fa), dot(now, fb), dot(now, fn)});
     store3(b.slip_normal, k, V<T>{dot(n, fa), dot(n, fb), dot(n, fn)});
   }

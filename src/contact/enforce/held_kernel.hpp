@@ -7,6 +7,7 @@
 //                kappa = s K1(xi) K2/(K1 + K2), phi of law.hpp                                        (pair.hpp)
 //                f = kappa phi' n - c^a X_a,  f_i = -H_i f - c^a H_i,a r,  c^a = phi A^-1_ab dkappa/dxi_b
 //   friction     trial e + dg, e' = min(1, L/(k_t |e + dg|)) (e + dg), e in the facet's frame       (friction.hpp)
+//   its couple   -c^a H_i,a r,  c^a = g^-1_ab F.X_b                                                  (friction_couple())
 //
 // On a facet, and over the flat part of the strips at its free borders, the taper is 1 and its gradient 0, so strips do not appear. A lane
 // is `ordinary` when all that the formulas above leave out is absent: one minimum only, not further out, not behind an edge, 0 < P, P below
@@ -73,7 +74,8 @@ struct HeldBatch {
   double rate[size], acceleration[size];
   double approach[size], kinematic_step[size];
   double slip[3][size], slip_normal[3][size], tangential_stiffness[size];
-  double on_surface[3][size];  ///< friction
+  double on_surface[3][size];        ///< friction
+  double couple_stiffness[5][size];  ///< that its couple asks for, at the corners and the node (friction_couple())
   double stick[size], dissipated[size], slips[size];
   double made[size], stepped[size], light[size];
 };

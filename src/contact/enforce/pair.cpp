@@ -156,4 +156,41 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   return result;
 }
 
+FrictionCouple friction_couple(const Patch& patch, const ClosestPoint& c, const Vec3& x, const Vec3& on_surface) {
+  FrictionCouple result;
+  const Directions free = free_directions(c, patch.triangle);
+  if (free.count == 0) return result;
+  const std::size_t corners = patch.triangle ? 3 : 4;
+  const auto gradient = shape_gradient(patch.triangle, c.s, c.t);
+  std::array<Vec3, 2> tangent{};
+  std::array<std::array<double, 4>, 2> dh{};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(free.count); ++a) {
+    for (std::size_t i = 0; i < corners; ++i) {
+      dh[a][i] = free.d[a][0] * gradient[0][i] + free.d[a][1] * gradient[1][i];
+      tangent[a] += dh[a][i] * patch.x[i];
+    }
+  }
+  // Of one direction: as if the other were a unit vector across.
+  const bool two = free.count == 2;
+  const double g11 = squared_norm(tangent[0]), g12 = dot(tangent[0], tangent[1]), g22 = two ? squared_norm(tangent[1]) : 1.0;
+  const double det = g11 * g22 - g12 * g12;
+  if (!(det > 0.0)) return result;
+  const double i11 = g22 / det, i12 = -g12 / det, i22 = two ? g11 / det : 0.0;
+  const double f1 = dot(on_surface, tangent[0]), f2 = dot(on_surface, tangent[1]);
+  const Vec3 r = x - c.point;
+  std::array<double, 4> arm{};
+  double weights = 1.0, arms = 1.0;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double h1 = dh[0][i], h2 = dh[1][i];
+    result.on_facet[i] = -((i11 * f1 + i12 * f2) * h1 + (i12 * f1 + i22 * f2) * h2) * r;
+    const double square = (i11 * h1 * h1 + 2.0 * i12 * h1 * h2) + i22 * h2 * h2;
+    arm[i] = std::sqrt(c.weight[i] * c.weight[i] + squared_norm(r) * std::max(square, 0.0));
+    weights += std::abs(c.weight[i]);
+    arms += arm[i];
+  }
+  for (std::size_t i = 0; i < corners; ++i) result.corner_share[i] = 0.5 * (arm[i] * arms - std::abs(c.weight[i]) * weights);
+  result.node_share = 0.5 * (arms - weights);
+  return result;
+}
+
 }  // namespace abut::contact

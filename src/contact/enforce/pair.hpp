@@ -58,4 +58,20 @@ struct Depth {
 [[nodiscard]] PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const NormalLaw& law, Depth p, double scale,
                                    double node_stiffness, bool half_of_facet, double widening, bool gap_follows = false);
 
+/// What friction adds at the corners of its facet. Slip is the way of the closest point over the facet (friction.hpp), g = X_a.X_b; with
+/// the friction force F on the surface, -F on the node and r = x - X(xi), forces that work on slip alone are
+///   f_i = H_i F - c^a H_i,a r,   c^a = g^-1_ab F.X_b
+/// The second term, here, is the couple that balances the moment of -F and F, which are |r| apart: half of it per pass is what friction on
+/// the faces of two plates does to their middle surfaces. Along an edge one direction is free, at a corner none, and what the force has
+/// beside it has no couple.
+struct FrictionCouple {
+  std::array<Vec3, 4> on_facet{};
+  /// Share of K_t that corners and node need in the sums of stiffness beyond |H_i| (1 + sum |H|)/2, (1 + sum |H|)/2:
+  /// |a_i| (1 + sum |a|)/2, |a_i|^2 = H_i^2 + r^2 g^-1_ab H_i,a H_i,b, less that.
+  std::array<double, 4> corner_share{};
+  double node_share = 0.0;
+};
+/// @param x  the node  @param on_surface  F
+[[nodiscard]] FrictionCouple friction_couple(const Patch& patch, const ClosestPoint& c, const Vec3& x, const Vec3& on_surface);
+
 }  // namespace abut::contact

@@ -311,7 +311,7 @@ void Pass::add_reactions(const GroupSums& sums, const Side& surface, SideLoads& 
       SideLoads::Node& node = surface_loads.load(corner[k]);
       node.reaction_normal += r.normal[k];
       node.reaction_tangential += r.weight[k] * r.tangential;
-      node.reaction_stiffness += std::abs(r.weight[k]) * r.stiffness;
+      node.reaction_stiffness += r.stiffness[k];
       node.reaction_springs += std::abs(r.weight[k]) * r.springs;
     }
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -108,14 +109,17 @@ class Pass {
       operator Vec3() const { return {x, y, z}; }  // NOLINT: a vector like any other
     };
     Index facet;
-    double stiffness, springs;
-    std::array<double, 4> weight;
+    double springs;
+    std::array<double, 4> weight, stiffness;
     std::array<Part, 4> normal;
     Part tangential;
 
     /// @param spring  kappa phi'', of which k is made
     Reaction(Index f, double k, double spring, const std::array<double, 4>& w)
-        : facet(f), stiffness(k), springs(spring), weight(w) {}  // NOLINT
+        : facet(f),
+          springs(spring),
+          weight(w),  // NOLINT
+          stiffness{std::abs(w[0]) * k, std::abs(w[1]) * k, std::abs(w[2]) * k, std::abs(w[3]) * k} {}
   };
   // Results of `group` consecutive nodes, which one thread handles.
   struct GroupSums {

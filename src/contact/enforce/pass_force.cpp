@@ -306,20 +306,31 @@ void Pass::finish_node(const Scene& scene, Index i, Touch& touch, bool rub, Grou
     totals.tangential -= on_surface;
   }
   const double push = norm(touch.pair.on_node);
-  const auto add = [&](Index facet, const std::array<double, 4>& weight, const std::array<Vec3, 4>& force, bool equal) {
+  const double tangential_stiffness = options_.rubs() && rub && closest() ? after.tangential_stiffness : 0.0;
+  double node_share = 0.0;
+  const auto add = [&](const Measure& m, const std::array<Vec3, 4>& force, bool equal) {
+    const std::array<double, 4>& weight = m.closest.weight;
     // Of several facets each has what it carries.
     const double carried = touch.further > 0 && push > 0.0 ? norm((force[0] + force[1]) + (force[2] + force[3])) / push : 1.0;
-    Reaction& reaction = sums.reactions.emplace_back(facet, step_stiffness, std::min(carried, 1.0) * spring, weight);
+    Reaction& reaction = sums.reactions.emplace_back(m.facet, step_stiffness, std::min(carried, 1.0) * spring, weight);
     for (std::size_t c = 0; c < 4; ++c) {
       reaction.normal[c] = equal ? factor * force[c] - (share * weight[c] * after.damping) * touch.normal : factor * force[c];
     }
     reaction.tangential = equal ? tangential : Vec3{};
+    if (!equal || tangential_stiffness <= 0.0) return;
+    const FrictionCouple couple = friction_couple(surface.patch(m.facet), m.closest, held.x()[at(i)], tangential);
+    for (std::size_t c = 0; c < 4; ++c) {
+      reaction.normal[c] = Vec3(reaction.normal[c]) + couple.on_facet[c];
+      reaction.stiffness[c] += tangential_stiffness * couple.corner_share[c];
+    }
+    node_share = std::max(node_share, couple.node_share);
   };
-  add(touch.facet, touch.weight, touch.pair.on_facet, true);
+  add(touch.measure, touch.pair.on_facet, true);
   for (std::size_t k = touch.first_further; k < touch.first_further + touch.further; ++k) {
     const Further& one = sums.further[k];
-    if (one.acts) add(one.measure.facet, one.measure.closest.weight, one.on_facet, one.equal);
+    if (one.acts) add(one.measure, one.on_facet, one.equal);
   }
+  held_loads.load(i).own_stiffness += tangential_stiffness * node_share;
 }
 
 }  // namespace abut::contact

@@ -188,6 +188,8 @@ void Pass::finish_ordinary(const Scene& scene, const HeldBatch& batch, int lane,
     slips_[at(i)] = batch.slips[k] != 0.0 ? 1 : 0;
     const Vec3 on_surface = get(batch.on_surface);
     reaction.tangential = on_surface;
+    for (std::size_t c = 0; c < 4; ++c) reaction.stiffness[c] += batch.couple_stiffness[c][k];
+    load.own_stiffness += batch.couple_stiffness[4][k];
     load.own_tangential = -on_surface;
     totals.tangential -= on_surface;
     after.friction = on_surface;

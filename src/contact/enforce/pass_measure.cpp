@@ -240,6 +240,8 @@ void Pass::measure_plain(const Side& held, const Side& surface, Index i, Touch& 
   touch.known = true;
   touch.facet = t.facet;
   touch.weight = p.weight;
+  touch.measure.facet = t.facet;
+  touch.measure.closest.weight = p.weight;
   touch.point = p.point;
   touch.normal = p.normal;
   touch.distance = p.distance;

@@ -209,13 +209,16 @@ TEST(HeldKernel, is_the_general_way_to_rounding) {
       Vec3 sum{b.on_node[0][k], b.on_node[1][k], b.on_node[2][k]};
       const Vec3 on_node = sum;
       Vec3 moment{};
+      const FrictionCouple couple = friction_couple(patch, c, x, {b.on_surface[0][k], b.on_surface[1][k], b.on_surface[2][k]});
+      EXPECT_NEAR(b.couple_stiffness[4][k], b.tangential_stiffness[k] * couple.node_share, 1e-12 * b.tangential_stiffness[k]);
       double k1 = 0.0, softest = 1e300, stiffest = 0.0, spread = 0.0;
       for (int i = 0; i < 4; ++i) {
         const auto corner = static_cast<std::size_t>(i);
         EXPECT_NEAR(c.weight[corner], b.weight[i][k], 1e-12);
         const Vec3 f{b.on_corner[i][0][k], b.on_corner[i][1][k], b.on_corner[i][2][k]};
         sum += f;
-        moment += cross(patch.x[corner] - x, f);
+        moment += cross(patch.x[corner] - x, f - couple.on_facet[corner]);
+        EXPECT_NEAR(b.couple_stiffness[i][k], b.tangential_stiffness[k] * couple.corner_share[corner], 1e-12 * b.tangential_stiffness[k]);
         k1 += c.weight[corner] * b.corner_stiffness[i][k];
         softest = std::min(softest, b.corner_stiffness[i][k]);
         stiffest = std::max(stiffest, b.corner_stiffness[i][k]);
