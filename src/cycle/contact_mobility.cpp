@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <variant>
 
 namespace abut::cycle {
 
@@ -15,18 +16,17 @@ ContactMobility::ContactMobility(const model::Model& model, std::span<const init
                                  const constraints::BoundaryConditions& conditions)
     : model_(&model) {
   const auto n = at(model.node_count());
-  std::vector<std::uint8_t> touches(n, 0), lifted(n, 0), of_body(n, 0);
+  std::vector<std::uint8_t> touches(n, 0), lifted(n, 0), corner(n, 0), of_body(n, 0);
   for (const init::RunInterface& i : interfaces) {
-    const auto& ibc = model.interfaces[at(i.model_index)].ibc;
+    const model::Interface& card = model.interfaces[at(i.model_index)];
+    const auto& ibc = card.ibc;
     const auto bits = static_cast<std::uint8_t>((ibc[0] ? 1U : 0U) | (ibc[1] ? 2U : 0U) | (ibc[2] ? 4U : 0U));
-    const auto take = [&](Index node) {
-      touches[at(node)] = 1;
-      lifted[at(node)] = static_cast<std::uint8_t>(lifted[at(node)] | bits);
-    };
-    for (const init::RunInterface::Side& side : i.sides) {
-      for (const Index node : side.nodes) take(node);
-      for (const auto& corners : side.corners) {
-        for (const Index node : corners) take(node);
+    const bool both_are_surfaces = std::holds_alternative<model::InterfaceType3>(card.type);
+    for (std::size_t side = 0; side < i.sides.size(); ++side) {
+      for (const Index node : i.sides[side].nodes) {
+        touches[at(node)] = 1;
+        if (side == 0 || both_are_surfaces) lifted[at(node)] = static_cast<std::uint8_t>(lifted[at(node)] | bits);
+        if (side == 1 || both_are_surfaces) corner[at(node)] = 1;
       }
     }
   }
@@ -35,7 +35,7 @@ ContactMobility::ContactMobility(const model::Model& model, std::span<const init
     if (bound_[at(node)] >= 0) return;
     bound_[at(node)] = static_cast<std::int32_t>(bound_nodes_.size());
     bound_nodes_.push_back(node);
-    lifted_.push_back(lifted[at(node)]);
+    lifted_.push_back(corner[at(node)] != 0 ? std::uint8_t{0} : lifted[at(node)]);
   };
   // Main nodes whether they touch or not: they move their bodies.
   for (const model::RigidBody& body : model.rigid_bodies) {

@@ -1,7 +1,9 @@
 // How the nodes of the interfaces answer to impulses where they are not free: what contact makes effective masses of pairs with.
 //
-// Held nodes (boundary conditions, imposed motions; one or two directions, skews): (1 - sum e_k e_k^T)/m. A direction that IBC of an
-// interface lifts counts as free for all nodes of that interface: a node in contact is released in the cycle in which it touches.
+// Held nodes (boundary conditions, imposed motions; one or two directions, skews): (1 - sum e_k e_k^T)/m. IBC of an interface lifts
+// conditions of nodes that are themselves in contact, in the cycle in which they touch. A node that is never a corner of a facet counts as
+// free in these directions at all times, for only its own pairs ask; one that is a corner, too (TYPE3, self contact), as it was in the
+// cycle before: held until it touches; a corner that is no contact node as held.
 // Nodes of a rigid body: springs that act on it together share its mass in proportion to their stiffness K_i (that of the last cycle, which
 // counts nodes that are about to touch),
 //   A_i = (K/K_i) (T - sym([r_i] R [r]^T)),   K = sum K_i,  r = sum K_i r_i / K     ([r] the matrix of r x)
@@ -51,7 +53,7 @@ class ContactMobility {
   std::vector<Index> bound_nodes_;           ///< nodes with conditions or imposed motions that are not steady, main nodes
   std::vector<std::int32_t> bound_;          ///< #N: place in bound_nodes_, or -1
   std::vector<Held> held_, held_rotation_;   ///< as bound_nodes_
-  std::vector<std::uint8_t> lifted_;         ///< as bound_nodes_: bits as of BoundaryConditions
+  std::vector<std::uint8_t> lifted_;  ///< as bound_nodes_: directions that count as released at all times, bits as of BoundaryConditions
   struct Pushed {
     double stiffness = 0.0;
     Vec3 moment;  ///< sum K_i r_i

@@ -100,6 +100,38 @@ model::Model cube(Lower lower, unsigned turn, double scale) {
   return s.model;
 }
 
+/// A plate of 3 by 3 shells falls on a clamped one whose nodes are not in contact themselves: IBC may release no node of it.
+/// @param type  3, 5 or 7. TYPE3: the clamped plate is one large shell, so none of its nodes is over the other plate.
+model::Model with_ibc(int type, double speed, double height) {
+  Scene s("ibc");
+  const auto material = s.elastic(density, young, 0.3);
+  const auto a = s.part(s.shell_property(0.001), material), b = s.part(s.shell_property(0.002), material);
+  const int cells = type == 3 ? 1 : 3;
+  const double wide = type == 3 ? 0.02 : 0.006, shift = type == 3 ? 0.0058 : 0.0;
+  const auto below = s.shells(a, cells, cells, [wide](double u, double v) { return Vec3{wide * u, wide * v, 0}; });
+  const auto above = s.shells(
+      b, 3, 3,
+      [=](double u, double v) {
+        return Vec3{shift + 0.006 * u, shift + 0.006 * v, height};
+      },
+      true);
+  s.velocity(above, {0, 0, -speed});
+  s.fix(below, {true, true, true}, {true, true, true});
+  const Index lower = s.shell_surface(a), upper = s.shell_surface(b);
+  model::Interface& i = s.model.interfaces[static_cast<std::size_t>(s.contact(lower, upper, type == 7 ? 1.0 : 0.2, 0.0, 5e-4))];
+  i.ibc = {false, false, true};
+  model::InterfaceType5 five;
+  model::InterfaceType7 seven;
+  five.nodes = seven.nodes = above;
+  five.surface = seven.surface = lower;
+  seven.istf = 4;
+  seven.gap_given = true;
+  if (type == 5) i.type = five;
+  if (type == 7) i.type = seven;
+  s.end(1e-3 / speed, 0.0, 0.9);
+  return s.model;
+}
+
 /// @return largest and last |CX| over the largest energy
 std::pair<double, double> made(const model::Model& m, const char* name, double scale) {
   Recorder r;
@@ -135,6 +167,29 @@ TEST(EffectiveMass, ReboundsKeepTheirEnergy) {
       EXPECT_LT(largest, 0.01) << c.name;
       EXPECT_LT(last, c.rigid_upper && scale > 0.3 ? 0.01 : 0.002) << c.name;
     }
+  }
+}
+
+// IBC releases nodes that are in contact themselves, not those of the facets they press on. When these counted as free, too, a clamped
+// plate of TYPE7 made up to 5.7 % of the largest energy, one of TYPE5 0.30 %.
+TEST(EffectiveMass, ClampedCornersStayClampedUnderIbc) {
+  for (const int type : {3, 5, 7}) {
+    double worst = 0.0;
+    for (const double speed : {1.0, 3.0, 10.0}) {
+      for (const double height : {6e-4, 6.1e-4, 6.3e-4}) {
+        Recorder r;
+        const auto report = abut::cycle::run(with_ibc(type, speed, height), {}, r);
+        ASSERT_EQ(report.outcome.kind, abut::cycle::Outcome::Kind::finished) << report.outcome.message;
+        Index touched = 0;
+        for (const auto& sample : r.samples) {
+          worst = std::max(worst, std::abs(sample.balance.cx) / sample.balance.largest);
+          touched = std::max(touched, sample.interfaces[0].in_contact);
+        }
+        EXPECT_GT(touched, 0);
+      }
+    }
+    std::printf("[found] IBC over a clamped plate, TYPE%d: |CX| %.4f %% at most\n", type, 100 * worst);
+    EXPECT_LT(worst, type == 7 ? 0.0025 : 0.0005) << type;
   }
 }
 
