@@ -207,6 +207,17 @@ int flag_or(BlockReader& r, deck::Columns c, std::string_view field, int high, s
   return static_cast<int>(value);
 }
 
+/// Nodes of a surface, sorted; none of no_index.
+std::vector<Index> nodes_on(const Context& c, Index surface) {
+  std::vector<Index> nodes;
+  if (surface == no_index) return nodes;
+  for (const Segment& s : c.model->surfaces[static_cast<std::size_t>(surface)].segments)
+    nodes.insert(nodes.end(), s.nodes.begin(), s.nodes.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 /// Cards 2 to 4 of TYPE7: what touches what, stiffness and gap.
 void read_type7_head(BlockReader& r, Interface& i, InterfaceType7& t) {
   Context& c = r.context();
@@ -215,12 +226,8 @@ void read_type7_head(BlockReader& r, Interface& i, InterfaceType7& t) {
   const Index nodes = r.resolve(c.tables.node_groups, group, "/GRNOD", {1, 10}, "grnd_IDs");
   t.surface = required_surface(r, {11, 20}, "surf_IDm");
   if (nodes != no_index) t.nodes = c.model->node_groups[static_cast<std::size_t>(nodes)].nodes;
-  if (group == 0 && t.surface != no_index) {  // self contact: the nodes of the surface itself
-    for (const Segment& s : c.model->surfaces[static_cast<std::size_t>(t.surface)].segments)
-      t.nodes.insert(t.nodes.end(), s.nodes.begin(), s.nodes.end());
-    std::sort(t.nodes.begin(), t.nodes.end());
-    t.nodes.erase(std::unique(t.nodes.begin(), t.nodes.end()), t.nodes.end());
-  }
+  const std::vector<Index> main = nodes_on(c, t.surface);
+  if (group == 0) t.nodes = main;  // self contact: the nodes of the surface itself
   t.istf = flag_or(r, {21, 30}, "Istf", 5, "a stiffness rule; write 0 (main side) to 5");
   t.igap = flag_or(r, {41, 50}, "Igap", 3, "a gap rule; write 0 (constant), 1, 2 or 3");
   i.idel = read_idel(r, {71, 80});
@@ -243,7 +250,13 @@ void read_type7_head(BlockReader& r, Interface& i, InterfaceType7& t) {
   const double mesh = non_negative(r, {41, 60}, "%mesh_size", dim::none, "a mesh share");
   if (mesh > 0.0) t.mesh_size = mesh;
   t.dt_min = non_negative(r, {61, 80}, "dtmin", dim::time, "a time step");
-  if (group == 0) refuse_option(r, {81, 90}, "Irem_gap", 1, "leaving out nodes closer than the gap in self contact");
+  const auto on_main = [&main](Index node) { return std::binary_search(main.begin(), main.end(), node); };
+  const deck::Columns left_out{81, 90};
+  if (std::any_of(t.nodes.begin(), t.nodes.end(), on_main)) {
+    refuse_option(r, left_out, "Irem_gap", 1, "leaving out nodes closer than the gap in self contact");
+  } else {
+    (void)r.integer(left_out, "Irem_gap");  // nothing to leave out
+  }
 }
 
 /// A stiffness with Istf 1 and a factor otherwise; a negative value swaps the two (E.3).

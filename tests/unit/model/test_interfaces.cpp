@@ -214,6 +214,26 @@ TEST(Interfaces, Type7WithoutGroupIsSelfContact) {
   EXPECT_EQ(std::get<InterfaceType7>(b.model.interfaces.at(2).type).nodes.size(), 8u);
 }
 
+// Nodes closer than the gap on their own surface: not left out, and Irem_gap 2 asks for it. A group of the surface's own nodes is self
+// contact as much as none.
+TEST(Interfaces, Type7LeavesNoNodesOutInSelfContact) {
+  const std::string wanted =
+      with_line(base_starter, "/INTER/TYPE7/3", 4,
+                "                   0                   0                   0                   0         2         0");
+  const auto with_group = [&wanted](const char* group) {
+    return build_text(with_line(wanted, "/INTER/TYPE7/3", 2, integers({group, "2", "0", "0", "0", "", "0", "0", "0", "0"})));
+  };
+  EXPECT_FALSE(with_group("4").diagnostics.has_errors()) << "no node of the surface: nothing to leave out";
+  for (const char* group : {"0", "3"}) {
+    const Built b = with_group(group);
+    ASSERT_EQ(b.diagnostics.error_count(), 1) << group;
+    EXPECT_EQ(
+        to_string(b.diagnostics.all().front()),
+        "deck_0000.rad:168: /INTER/TYPE7/3 field 'Irem_gap' (columns 81-90): leaving out nodes closer than the gap in self contact (2) "
+        "is not supported; write 1");
+  }
+}
+
 TEST(Interfaces, OldLayoutOfTheThreeTypes) {
   const auto narrow = [](const std::vector<std::string>& fields, std::size_t width) {
     std::string s;
