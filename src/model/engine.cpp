@@ -126,11 +126,12 @@ class EngineReader {
     const double minimum = d.positive(1, "Tmin");
     using Action = StepControl::Action;
     for (StepControl* control : {&k_.brick, &k_.tetra, &k_.shell, &k_.sh3n}) {
+      if (control->own) continue;  // in an earlier run
       const bool solid = control == &k_.brick || control == &k_.tetra;
       *control = {s, minimum, minimum > 0.0 ? (solid ? Action::stop : Action::remove) : Action::none};
     }
-    k_.nodal_scale = s;
-    k_.contact_scale = s;
+    if (!k_.nodal_step) k_.nodal_scale = s;
+    if (!k_.contact_scale_given) k_.contact_scale = s;
   }
 
   /// true: the block is understood, or may be skipped.
@@ -253,7 +254,7 @@ class EngineReader {
     static const std::map<std::string, Action> actions{
         {"STOP", Action::stop}, {"KILL", Action::stop}, {"DEL", Action::remove}, {"CST", Action::constant}};
     FreeFormat d = data(block);
-    StepControl control{scale(d), d.positive(1, "Tmin"), solid ? Action::stop : Action::remove};
+    StepControl control{scale(d), d.positive(1, "Tmin"), solid ? Action::stop : Action::remove, true};
     if (!action.empty()) {
       const auto found = actions.find(action);
       if (found == actions.end()) return false;

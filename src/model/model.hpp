@@ -313,6 +313,7 @@ struct ThRequest {
 struct StepControl {
   double scale = 0.9, minimum = 0.0;
   enum class Action { none, stop, remove, constant } action = Action::none;
+  bool own = false;  ///< from a card of the type, not from the general /DT
 };
 
 struct Controls {

@@ -233,7 +233,7 @@ bool Built::has(std::string_view part) const {
   return std::any_of(all.begin(), all.end(), [&](const std::string& s) { return s.find(part) != std::string::npos; });
 }
 
-Built build_text(const std::string& starter, const std::string& engine) {
+Built build_text(const std::string& starter, const std::string& engine, const std::vector<std::string>& later) {
   Built b;
   deck::DeckPair pair;
   pair.starter = deck::read_starter_text(starter, "deck_0000.rad", b.diagnostics);
@@ -241,7 +241,11 @@ Built build_text(const std::string& starter, const std::string& engine) {
     pair.engine = deck::read_engine_text(engine, "deck_0001.rad", b.diagnostics);
     pair.has_engine = true;
   }
-  b.model = build(pair, b.diagnostics);
+  int run = 1;
+  for (const std::string& text : later) {
+    pair.restarts.push_back(deck::read_engine_text(text, fmt::format("deck_{:04}.rad", ++run), b.diagnostics));
+  }
+  b.model = build(pair, b.diagnostics, run);
   return b;
 }
 

@@ -23,8 +23,9 @@ struct Built {
   [[nodiscard]] std::vector<std::string> messages() const;  ///< to_string of every finding
   [[nodiscard]] bool has(std::string_view part) const;      ///< some message contains `part`
 };
-/// Builds from text; the decks are called deck_0000.rad and deck_0001.rad.
-[[nodiscard]] Built build_text(const std::string& starter, const std::string& engine = base_engine);
+/// Builds from text; the decks are called deck_0000.rad and deck_0001.rad, those of `later` runs deck_0002.rad and so on.
+[[nodiscard]] Built build_text(const std::string& starter, const std::string& engine = base_engine,
+                               const std::vector<std::string>& later = {});
 /// The base deck with one line of the Starter deck replaced.
 [[nodiscard]] Built build_changed(std::string_view keyword, int offset, std::string_view text);
 

@@ -44,6 +44,27 @@ TEST(Engine, DefaultsWhenOnlyTheRunIsGiven) {
   EXPECT_EQ(k.dt_max, infinity);
 }
 
+// The second Engine deck repeats /DT as it is: what /DT/BRICK and the others have said stays, and what they have not follows /DT.
+TEST(Engine, GeneralStepOfALaterRunLeavesTheStepsOfTypesAlone) {
+  const std::string first = "/RUN/a/1\n1\n/DT\n0.9 0\n/DT/BRICK\n0.3 1e-9\n/DT/NODA/CST\n0.8 1e-8\n/DT/INTER/DEL\n0.6 1e-7\n";
+  const Controls k = build_text(base_starter, first, {"/RUN/a/2\n2\n/DT\n0.7 1e-6\n"}).model.controls;
+  for (const StepControl& solid : {k.brick, k.tetra}) {
+    EXPECT_EQ(solid.scale, 0.3);
+    EXPECT_EQ(solid.minimum, 1e-9);
+    EXPECT_EQ(solid.action, StepControl::Action::stop);
+  }
+  EXPECT_EQ(k.nodal_scale, 0.8);
+  EXPECT_EQ(k.nodal_minimum, 1e-8);
+  EXPECT_EQ(k.contact_scale, 0.6);
+  EXPECT_EQ(k.shell.scale, 0.7);
+  EXPECT_EQ(k.shell.minimum, 1e-6);
+  EXPECT_EQ(k.sh3n.scale, 0.7);
+  const Controls changed = build_text(base_starter, first, {"/RUN/a/2\n2\n/DT\n0.7 0\n", "/RUN/a/3\n3\n/DT/BRICK\n0.5\n"}).model.controls;
+  EXPECT_EQ(changed.brick.scale, 0.5);
+  EXPECT_EQ(changed.brick.action, StepControl::Action::none);
+  EXPECT_EQ(changed.shell.scale, 0.7);
+}
+
 TEST(Engine, GeneralStepGivesWayToTheStepOfAType) {
   // G.2: order is free. Solids stop and shells are deleted at the general minimum.
   const Controls k = controls("/RUN/a/1\n1\n/DT/SHELL/DEL\n0.5 1e-8\n/DT\n0.67 1e-7\n");
