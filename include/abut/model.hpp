@@ -115,7 +115,7 @@ struct Inspection {
 struct ReadOptions {
   bool orient = false;               ///< turn the segments of contact surfaces to face each other where that is unambiguous
   std::filesystem::path write_deck;  ///< with orient: the Starter deck with the turned surfaces goes to this file
-  int run = 1;                       ///< Engine decks 1 to `run` are read, each changes what its cards say
+  int run = 1;                       ///< Engine decks 1 to `run` are read, each changes what its cards say; 0: all there are
 };
 
 /// Text of a deck in memory.

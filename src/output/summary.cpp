@@ -124,14 +124,15 @@ void print_conditions(std::string& out, const model::Model& model) {
   if (!line.empty()) print(out, "Conditions  {}\n", line);
 }
 
-void print_controls(std::string& out, const model::Controls& c) {
-  print(out, "Run         until {:.6g}", c.t_end);
+}  // namespace
+
+std::string run_summary(const model::Controls& c) {
+  std::string out = fmt::format("{:<12}until {:.6g}", c.run_number > 1 ? fmt::format("Run {}", c.run_number) : "Run", c.t_end);
   if (c.history_interval < model::infinity) print(out, ", history every {:.6g}", c.history_interval);
   if (c.animation_interval < model::infinity) print(out, ", animation every {:.6g}", c.animation_interval);
   print(out, ", listing every {} cycles\n", c.print_every);
+  return out;
 }
-
-}  // namespace
 
 bool has_automatic_gap(const model::Interface& interface) {
   const auto* t7 = std::get_if<model::InterfaceType7>(&interface.type);
@@ -216,7 +217,7 @@ std::string model_summary(const model::Model& model, std::span<const double> par
   print_parts(out, model, part_mass);
   print_interfaces(out, model);
   print_conditions(out, model);
-  print_controls(out, model.controls);
+  out += run_summary(model.controls);
   if (!model.skipped.empty()) {
     print(out, "Skipped     keywords that do not change the physics:");
     for (const model::SkippedKeyword& s : model.skipped) print(out, " {} ({})", s.keyword, s.count);

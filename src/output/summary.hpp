@@ -16,6 +16,9 @@ namespace abut::output {
 /// @param part_mass  #parts initial masses; empty: not shown
 [[nodiscard]] std::string model_summary(const model::Model& model, std::span<const double> part_mass);
 
+/// The line of an Engine deck in it: final time and intervals.
+[[nodiscard]] std::string run_summary(const model::Controls& controls);
+
 /// "TYPE3", "TYPE5", "TYPE7".
 [[nodiscard]] std::string_view interface_type(const model::Interface& interface);
 

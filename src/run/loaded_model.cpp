@@ -57,14 +57,15 @@ std::shared_ptr<const Model::Impl> load(const deck::DeckPair& pair, const std::f
   m->files = pair.starter.files;
   const auto add_files = [&m](const deck::Deck& deck) { m->files.insert(m->files.end(), deck.files.begin(), deck.files.end()); };
   add_files(pair.engine);
-  if (options.run < 1 || options.run > m->last_run) {
-    findings.error("model.no_engine", {path.string(), 0, {}, {}, 0, 0}, fmt::format("there is no Engine deck of run {}", options.run));
+  const int run = options.run == 0 ? m->last_run : options.run;
+  if (run < 1 || run > m->last_run) {
+    findings.error("model.no_engine", {path.string(), 0, {}, {}, 0, 0}, fmt::format("there is no Engine deck of run {}", run));
   }
   if (!findings.has_errors()) {
-    for (int n = 2; n <= options.run; ++n) add_files(pair.restarts[static_cast<std::size_t>(n) - 2]);
-    m->model = model::build(pair, findings, options.run);
+    for (int n = 2; n <= run; ++n) add_files(pair.restarts[static_cast<std::size_t>(n) - 2]);
+    m->model = model::build(pair, findings, run);
   } else {
-    (void)model::build(pair, findings, 1);  // all faults of a deck in one go
+    (void)model::build(pair, findings, options.run == 0 ? run : 1);  // all faults of a deck in one go
   }
   if (findings.has_errors()) throw InputError(std::move(findings));
   init::settle_initial_penetrations(m->model, findings);

@@ -57,6 +57,34 @@ def check(abut, deck):
     return document["model"]["name"]
 
 
+def later_runs(abut, deck, folder):
+    """check reads all Engine decks, as a run of them would: their faults together, and a line for each run."""
+    os.makedirs(folder)
+    for file in (deck, deck.replace("_0000.rad", "_0001.rad")):
+        shutil.copy(file, folder)
+    copy = os.path.join(folder, os.path.basename(deck))
+    name = os.path.basename(deck).removesuffix("_0000.rad")
+
+    def engine(run, text):
+        with open(copy.replace("_0000.rad", f"_{run:04}.rad"), "w") as file:
+            file.write(f"/RUN/{name}/{run}\n{text}")
+
+    engine(2, "1e6\n/FOO\n")
+    engine(3, "2e6\n/RBODY/OFF\n987654\n")
+    result = call(abut, "check", copy)
+    expect(result.returncode == 1 and f"{name}_0002.rad:3: /FOO" in result.stderr and f"{name}_0003.rad:4: /RBODY/OFF" in result.stderr,
+           "check tells the faults of all runs", result)
+    engine(2, "1e6\n")
+    engine(3, "2e6\n")
+    result = call(abut, "check", copy)
+    lines = result.stdout.splitlines()
+    expect(result.returncode == 0 and [l for l in lines if re.match("Run 2 +until 1e\\+06,", l)] and
+           [l for l in lines if re.match("Run 3 +until 2e\\+06,", l)], "check lists all runs", result)
+    document = json.loads(call(abut, "check", copy, "--json").stdout)
+    expect([r["run"] for r in document["runs"]] == [1, 2, 3] and document["runs"][2]["t_end"] == 2e6 and
+           f"{name}_0003.rad" in "".join(document["decks"]), "and in JSON", result)
+
+
 STARTER_LINES = """/SURF/SEG/9001 /SURF/PART/EXT/9002 /SURF/ELLIPS/9003 /GRNOD/NODE/9004 /GRNOD/SPHERE/9005 /TH/NODE/9006 /TH/MONV/9007
     /BOX/RECTA/9008 /SKEW/FIX/9009 /SET/GENERAL/9010 /ADMAS/0/9011 /ADMAS/7/9012 /INTER/TYPE3/9013 /INTER/TYPE11/9014 /MAT/LAW36/9015
     /FRAME/FIX/9016 /FOO/9017 /DAMP/9018 /IOFLAG""".split()
@@ -213,6 +241,7 @@ def main():
     name = check(abut, deck)
     with tempfile.TemporaryDirectory() as folder:
         keywords(abut, deck, os.path.join(folder, "keywords"))
+        later_runs(abut, deck, os.path.join(folder, "later"))
         interrupted(abut, endless(deck, os.path.join(folder, "deck")), name, os.path.join(folder, "interrupted"), *sys.argv[3:])
         complete(abut, deck, name, os.path.join(folder, "complete"))
         recorded(abut, folder)
