@@ -97,6 +97,14 @@ void read_nodal_velocities(Context& c, const deck::Block& block) {
     const Index skew = read_skew(r, {11, 20}, "skew_ID");
     const Vec3 v = to_global(r, read_vector(r, 21, {"Vx", "Vy", "Vz"}, dim::velocity), skew, {11, 20});
     r.next_card();
+    if (r.text({1, 20}).find_first_not_of(" 0") != std::string_view::npos) {
+      r.error(
+          "model.bad_card", {1, 20}, "blank",
+          fmt::format("the second card of node {} begins with 20 blank columns; each node has two cards, Vx, Vy, Vz on the first and Vrx, "
+                      "Vry, Vrz on the second, which is blank without a rotation",
+                      id));
+      return r.leave_rest();
+    }
     const Vec3 w = to_global(r, read_vector(r, 21, {"Vrx", "Vry", "Vrz"}, dim::rate), skew, {11, 20});
     if (node == no_index) continue;
     c.model->initial_velocities.push_back({r.id(), false, v, {node}});
