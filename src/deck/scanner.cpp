@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "deck/fields.hpp"
 #include "deck/text.hpp"
 
 namespace abut::deck {
@@ -79,8 +80,14 @@ std::vector<std::string_view> split_words(std::string_view line) {
   return words;
 }
 
+/// A line of a /SET: a word, alone or with an id in the second field.
+bool is_clause(std::string_view line) {
+  return field_text(line, {11, card_width}).empty() || parse_integer(field_text(line, {11, 20})).has_value();
+}
+
 /// Whether the lines before the first keyword of an included file are prose (H.2, item 3): there are some, and none starts like a number.
-bool head_is_prose(std::string_view text) {
+/// @param in_set  the file is included in a /SET, whose lines start with a word
+bool head_is_prose(std::string_view text, bool in_set) {
   Lines lines(text, 0, 0);
   std::string_view line;
   bool any = false;
@@ -90,6 +97,7 @@ bool head_is_prose(std::string_view text) {
     if (is_comment(line) || is_blank_card(line)) continue;
     const char c = trimmed(line).front();
     if ((c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.') return false;
+    if (in_set && !any && is_clause(line)) return false;
     any = true;
   }
   return any;
@@ -207,7 +215,8 @@ void StarterScanner::scan(int file, std::size_t start, const std::filesystem::pa
   const bool included = file > 0;
   const auto skipped = text.substr(0, start);
   Lines lines(text, start, static_cast<int>(std::count(skipped.begin(), skipped.end(), '\n')));
-  bool in_prose = included && head_is_prose(text);
+  const bool in_set = open_ != nullptr && same_word(open_->back().word(0), "SET");
+  bool in_prose = included && head_is_prose(text, in_set);
   int prose_lines = 0;
   std::string_view line;
   while (lines.next(line)) {

@@ -192,6 +192,21 @@ TEST(Include, Surprise3PlainTextIsNoCard) {
   EXPECT_EQ(messages(d)[0], (folder.path() / "notes.inc").string() + ": note: 3 lines of plain text in an included file are skipped");
 }
 
+// Lines of a set start with a word, too.
+TEST(Include, LinesOfASetAreNoProse) {
+  const Folder folder;
+  folder.write("rest.inc", "# more of it\nPART               1\nALL\n");
+  folder.write("notes.inc", "Notice> some words\nNotice>\nNotice> 2 more 3\n");
+  const fs::path main =
+      folder.write("a_0000.rad", "/SET/GENERAL/9\nset\nSHELL            100       101\n#include rest.inc\n#include notes.inc\n/END\n");
+  Diagnostics d;
+  const DeckPair pair = read(main, d);
+  ASSERT_EQ(pair.starter.blocks.size(), 1u);
+  EXPECT_EQ(card_texts(pair.starter.blocks[0]),
+            (std::vector<std::string>{"set", "SHELL            100       101", "PART               1", "ALL"}));
+  EXPECT_EQ(messages(d)[0], (folder.path() / "notes.inc").string() + ": note: 3 lines of plain text in an included file are skipped");
+}
+
 TEST(Include, Surprise4And5WholeDeckWithItsOwnBeginAndEnd) {
   const Folder folder;
   folder.write("dummy_0000.rad", "#RADIOSS STARTER\n/BEGIN\ndummy\n      2019\n/NODE\n         1\n#enddata\n         9\n/END\n");
