@@ -44,6 +44,35 @@ void check_products(BlockReader& r, const Vec3& j, const Vec3& off) {
   }
 }
 
+/// A wall does not bring a node back that begins behind it: it stops the node there, or lets it go.
+void warn_of_nodes_behind(const BlockReader& r, Context& c, const RigidWall& w) {
+  std::size_t behind = 0;
+  double deepest = 0.0;
+  Index node = no_index;
+  for (const Index n : w.nodes) {
+    const Vec3 x = c.model->node_x[static_cast<std::size_t>(n)];
+    const double depth = dot(w.point - x, w.normal);
+    if (depth <= 1e-6 * (norm(x) + norm(w.point))) continue;
+    ++behind;
+    if (depth <= deepest) continue;
+    deepest = depth;
+    node = n;
+  }
+  if (behind == 0) return;
+  const std::string where =
+      fmt::format("node {} deepest, {:.4g} from the plane", c.model->node_id[static_cast<std::size_t>(node)], deepest);
+  c.diagnostics->warning(
+      "model.behind_wall", r.place(),
+      behind == w.nodes.size()
+          ? fmt::format(
+                "all {} nodes of this wall begin behind it ({}): it looks the other way, and a node that moves against its normal stops "
+                "where it is; M to M1 must point to the side where the nodes are",
+                behind, where)
+          : fmt::format("{} of {} nodes of this wall begin behind it ({}), and one that moves on stops where it is, not at the plane; move "
+                        "the wall or the nodes, or take them out with grnd_ID2",
+                        behind, w.nodes.size(), where));
+}
+
 }  // namespace
 
 void read_rigid_body(Context& c, const deck::Block& block) {
@@ -149,6 +178,7 @@ void read_rigid_wall(Context& c, const deck::Block& block) {
     c.diagnostics->warning("model.empty_set", r.place(),
                            "no node can touch this wall; give a node group (grnd_ID1) or a search distance (Dsearch)");
   }
+  warn_of_nodes_behind(r, c, w);
   c.model->rigid_walls.push_back(std::move(w));
 }
 
