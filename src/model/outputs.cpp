@@ -38,7 +38,7 @@ void read_section(Context& c, const deck::Block& block) {
     r.warning("model.left_out", {51, 60}, "Frame_ID", "frames are not supported; the section is left out (give three nodes)");
     return r.leave_rest();
   }
-  r.next_card();  // file name
+  if (!old_layout(c)) r.next_card();  // file name
   r.next_card();
   const auto members = [&](const Tables::Map& table, const std::vector<IndexGroup>& groups, deck::Columns columns, std::string_view field,
                            std::string_view what) {
@@ -53,6 +53,11 @@ void read_section(Context& c, const deck::Block& block) {
   }
   s.shells = members(c.tables.shell_groups, c.shell_groups, {21, 30}, "grshel_ID", "/GRSHEL");
   s.sh3ns = members(c.tables.sh3n_groups, c.sh3n_groups, {61, 70}, "grsh3n_ID", "/GRSH3N");
+  if (solids == 0 && s.shells.empty() && s.sh3ns.empty()) {
+    r.warning("model.empty_set", {1, 70}, "grbric_ID, grshel_ID, grsh3n_ID",
+              fmt::format("this section holds no element, and its force is zero; name the elements on one side of its nodes{}",
+                          old_layout(c) ? "" : " (on the card after the file name, which has a line of its own even if blank)"));
+  }
   const Id interfaces = r.integer({71, 80}, "Niter");
   s.iframe = static_cast<int>(r.integer({91, 100}, "Iframe"));
   if (interfaces > 0) {
@@ -76,8 +81,9 @@ void read_accelerometer(Context& c, const deck::Block& block) {
   if (node == 0) r.error("model.missing_reference", {1, 10}, "node_ID", "no node is given; write the id of a /NODE");
   a.node = r.resolve(c.tables.nodes, node, "/NODE", {1, 10}, "node_ID");
   a.skew = read_skew(r, {11, 20}, "skew_ID");
-  a.cut_off = r.real({31, 50}, "Fcut", dim::rate);
-  if (a.cut_off < 0.0) r.error("model.out_of_range", {31, 50}, "Fcut", "a cut-off frequency is positive, or 0 for none");
+  const deck::Columns cut_off = old_layout(c) ? deck::Columns{35, 54} : deck::Columns{31, 50};  // 27-42 of the old card
+  a.cut_off = r.real(cut_off, "Fcut", dim::rate);
+  if (a.cut_off < 0.0) r.error("model.out_of_range", cut_off, "Fcut", "a cut-off frequency is positive, or 0 for none");
   if (a.node != no_index) c.model->accelerometers.push_back(a);
 }
 

@@ -1,4 +1,5 @@
 // Requests of a deck for time history and sections (deck-format.md F).
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,6 +94,39 @@ TEST(Outputs, SectionTakesGroupsFrameAndInterfaces) {
   EXPECT_EQ(s.iframe, 11);
   EXPECT_EQ(b.model.node_id[static_cast<std::size_t>(s.frame_nodes[2])], 12);
   EXPECT_EQ(find(b.model, ThKind::section, 4)->variables.size(), 9u);
+}
+
+TEST(Outputs, SectionWithoutElementsIsToldOf) {
+  const auto section = [](const std::string& cards) {
+    return build_text(with_line(base_starter, "/TH/PART/2", 0,
+                                "/GRBRIC/BRIC/9\nblock\n" + integers({"2"}) + "\n/SECT/4\ncut\n" + integers({"9", "10", "12", "3"}) + "\n" +
+                                    cards + "\n/TH/PART/2"));
+  };
+  EXPECT_EQ(section("cut file\n" + integers({"9"})).messages(), std::vector<std::string>{});
+  const std::string what =
+      " /SECT/4 field 'grbric_ID, grshel_ID, grsh3n_ID' (columns 1-70): this section holds no element, and its force is zero; name the "
+      "elements on one side of its nodes (on the card after the file name, which has a line of its own even if blank)";
+  EXPECT_TRUE(section("\n" + integers({"", "", "0"})).has("warning:" + what));
+  EXPECT_TRUE(section(integers({"9"})).has(" /SECT/4")) << "the card of the file name is left out";
+}
+
+// deck-format.md F.2, F.3: no card for a file name; a cut-off frequency in columns 27 to 42.
+TEST(Outputs, SectionAndAccelerometerOfTheOldLayout) {
+  std::string deck = "#RADIOSS STARTER      41old                    0\n/UNIT/MASS/kg\n/UNIT/LENGTH/mm\n/UNIT/TIME/ms\n/NODE\n";
+  const char* const corners[] = {"0. 0.", "1. 0.", "1. 1.", "0. 1."};
+  for (int n = 0; n < 4; ++n) {
+    deck += fmt::format("{:>8}{:>16}{:>16}{:>16}\n", n + 1, std::string(corners[n]).substr(0, 2), std::string(corners[n]).substr(3), "0.");
+  }
+  deck += fmt::format("/MAT/ELAST/1/steel\n{:>16}\n{:>16}{:>16}\n", "7.8e-6", "210.", "0.3");
+  deck += fmt::format("/PROP/SHELL/1/plate\n{:>8}{:>8}\n\n{:>8}{:>8}{:>16}\n/PART/1/a\n{:>8}{:>8}\n", 1, 2, 0, 0, ".1", 1, 1);
+  deck +=
+      fmt::format("/SHELL/1\n{:>8}{:>8}{:>8}{:>8}{:>8}\n/GRSHEL/SHEL/8/g\n{:>8}\n/GRNOD/NODE/2/n\n{:>8}{:>8}\n", 1, 1, 2, 3, 4, 1, 1, 2);
+  deck += fmt::format("/SECT/4/cut\n{:>8}{:>8}{:>8}{:>8}\n{:>24}\n/ACCEL/5/a\n{:>8}{:>8}{:>26}\n/END\n", 1, 2, 3, 2, 8, 3, 0, "1.65");
+  const Built b = build_text(deck);
+  ASSERT_EQ(b.messages(), std::vector<std::string>{});
+  EXPECT_EQ(b.model.sections.at(0).shells, std::vector<Index>{0});
+  EXPECT_EQ(b.model.sections.at(0).nodes.size(), 2u);
+  EXPECT_EQ(b.model.accelerometers.at(0).cut_off, 1.65);
 }
 
 TEST(Outputs, EveryGroupOfEveryKindExpandsToVariablesOfItsTable) {
