@@ -47,6 +47,10 @@ struct Profile {
   /// long for it; or 2 pi f h, which amplifies there.
   enum class WallFilter { bounded, reference };
 
+  /// Mass, momentum and kinetic energy of parts: of all their elements that are not deleted, with the masses and inertias that their nodes
+  /// got from them; or with equal masses at an element's nodes, and without the elements that lie in a rigid body.
+  enum class PartSums { nodal, reference };
+
   /// Kinetic energy of the balance: the leap-frog form m v(n-1/2).v(n+1/2)/2, whose sum with the potential of a linear
   /// structure is constant to rounding, or m |v(n)|^2/2 with v(n) = v(n-1/2) + h-/2 a(n), which oscillates by h^2 m a^2/8.
   enum class KineticEnergy { leapfrog, midpoint };
@@ -69,6 +73,7 @@ struct Profile {
   TetraSpin tetra_spin = TetraSpin::exact;
   MovingWall moving_wall = MovingWall::same_cycle;
   WallFilter wall_filter = WallFilter::bounded;
+  PartSums part_sums = PartSums::nodal;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -91,6 +96,7 @@ struct Profile {
     p.tetra_spin = TetraSpin::reference;
     p.moving_wall = MovingWall::reference;
     p.wall_filter = WallFilter::reference;
+    p.part_sums = PartSums::reference;
     p.reference_contact = true;
     return p;
   }

@@ -41,7 +41,7 @@ struct StepOutput {
   double* slots = nullptr;  ///< of all groups, per element (SlotLayout)
 };
 
-/// Sums over a part for the time history (numerics.md 8.3); `v` at the entry of the cycle.
+/// Sums over a part for the time history (Profile::PartSums, numerics.md 8.3); `v` at the entry of the cycle.
 struct PartSums {
   double kinetic_energy = 0.0, rotational_energy = 0.0, mass = 0.0;
   Vec3 momentum;
@@ -153,7 +153,7 @@ class Group {
   /// A step may delete elements.
   [[nodiscard]] virtual bool may_delete() const { return false; }
 
-  /// Elements wholly inside a rigid body: no force, no step, no part sums (numerics.md 6.2.1).
+  /// Elements wholly inside a rigid body: no force, no step; in the part sums as the profile says (numerics.md 6.2.1).
   virtual void set_rigid(std::span<const std::uint8_t> rigid) = 0;
 
   [[nodiscard]] virtual ElementOutput output(Index element) const = 0;

@@ -10,7 +10,8 @@ namespace {
 
 class InertGroup final : public Group {
  public:
-  InertGroup(const GroupInput& in, InertElements data) : data_(std::move(data)), live_(in.elements.size(), 1) {
+  InertGroup(const GroupInput& in, InertElements data)
+      : data_(std::move(data)), rigid_counts_(in.profile.part_sums == Profile::PartSums::nodal), counted_(in.elements.size(), 1) {
     part_ = in.part;
     elements_ = in.elements;
     layout_.nodes_per_element = data_.nodes_per_element;
@@ -34,7 +35,7 @@ class InertGroup final : public Group {
     return result;
   }
   void set_rigid(std::span<const std::uint8_t> rigid) override {
-    for (std::size_t e = 0; e < live_.size(); ++e) live_[e] = rigid[e] == 0 ? 1 : 0;
+    for (std::size_t e = 0; e < counted_.size(); ++e) counted_[e] = rigid_counts_ || rigid[e] == 0 ? 1 : 0;
   }
   [[nodiscard]] ElementOutput output(Index /*element*/) const override { return {}; }
   [[nodiscard]] bool active(Index /*element*/) const override { return true; }
@@ -42,7 +43,7 @@ class InertGroup final : public Group {
   [[nodiscard]] PartSums part_sums(const Vec3* v, const Vec3* /*w*/, parallel::ThreadPool* /*pool*/) const override {
     PartSums sums;
     for (Index e = 0; e < size(); ++e) {
-      if (live_[static_cast<std::size_t>(e)] == 0) continue;
+      if (counted_[static_cast<std::size_t>(e)] == 0) continue;
       for (int k = 0; k < data_.nodes_per_element; ++k) {
         const double m = data_.mass[index(e, k)];
         const auto node = static_cast<std::size_t>(data_.nodes[index(e, k)]);
@@ -67,7 +68,8 @@ class InertGroup final : public Group {
   }
 
   InertElements data_;
-  std::vector<std::uint8_t> live_;
+  bool rigid_counts_;
+  std::vector<std::uint8_t> counted_;  ///< in the part sums
 };
 
 }  // namespace

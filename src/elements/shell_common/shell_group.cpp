@@ -260,7 +260,6 @@ GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, paralle
       if (in.part_sums) shares_.sum(chunks_, c, in.v, in.w);  // while its nodes are in the caches
     }
   });
-  if (in.part_sums) total.part_sums = shares_.total();
   for (std::size_t c = 0; c < results_.size(); ++c) {
     const ChunkResult& r = results_[c];
     if (r.step * in_.step_scale < total.step) {
@@ -271,8 +270,10 @@ GroupResult ShellGroup::step(const StepInput& in, const StepOutput& out, paralle
     total.hourglass_energy += r.hourglass;
     total.removed_energy += r.removed_energy;
     total.removed += r.removed;
+    if (r.removed > 0) shares_.valid = false;
     if (total.bad_element == no_index && !std::isfinite(r.internal + r.hourglass)) total.bad_element = first_bad_element(c);
   }
+  if (in.part_sums) total.part_sums = shares_.valid ? shares_.total() : part_sums(in.v, in.w, &pool);
   return total;
 }
 
@@ -312,7 +313,8 @@ double ShellGroup::element_energy(Index element) const {
 
 std::vector<std::span<double>> ShellGroup::history() {
   if (state_.empty()) return {};
-  for (ChunkResult& r : results_) r.on = -1.0;  // whoever restores a history may change which elements are on
+  shares_.valid = false;  // whoever restores a history may change which elements are on
+  for (ChunkResult& r : results_) r.on = -1.0;
   return {std::span<double>(state_)};
 }
 
@@ -370,31 +372,6 @@ ElementOutput ShellGroup::output(Index element) const {
     o.plastic_max = k == 0 ? p : std::max(o.plastic_max, p);
   }
   return o;
-}
-
-void ShellGroup::share_masses() const {
-  if (shares_.valid) return;
-  std::vector<double> masses(chunks_.nodes().size(), 0.0), inertias(chunks_.nodes().size(), 0.0);
-  for (Index e = 0; e < size(); ++e) {
-    if (constant(e, shell_constant::active) == 0.0) continue;
-    const double share = element_mass(e) / static_cast<double>(per_element_);
-    const std::array<Vec3, 4> x = corners(e, in_.model->node_x.data());
-    const double t = initial_thickness(e), area = frame(std::span<const Vec3>(x.data(), per_element_)).area;
-    for (int k = 0; k < layout_.nodes_per_element; ++k) {
-      const std::size_t place = chunks_.place(e, k);
-      masses[place] += share;
-      inertias[place] += share * (t * t + area) / 12.0;
-    }
-  }
-  shares_.mass = NodalShares::Values(std::move(masses));
-  shares_.inertia = NodalShares::Values(std::move(inertias));
-  shares_.leaves.resize(static_cast<std::size_t>(chunks_.size()));
-  shares_.valid = true;
-}
-
-PartSums ShellGroup::part_sums(const Vec3* v, const Vec3* w, parallel::ThreadPool* pool) const {
-  share_masses();
-  return shares_.sums(chunks_, v, w, pool);
 }
 
 }  // namespace abut::elements

@@ -96,6 +96,7 @@ SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel 
   config_.midpoint_strain = !config_.small_strain && in.profile.strain_increment == Profile::StrainIncrement::midpoint;
   config_.literal_spin = in.profile.tetra_spin == Profile::TetraSpin::reference;
   reference_part_mass_ = config_.small_strain && config_.reference_step;
+  nodal_part_sums_ = in.profile.part_sums == Profile::PartSums::nodal;
   config_.step_scale = in.step_scale;
   config_.step_wanted = in.step_wanted;
   config_.step_minimum = in.step_minimum;
@@ -183,12 +184,15 @@ ElementNodes SolidGroup::nodes(Index element) const {
   return nodes;
 }
 
+double SolidGroup::mass_share(Index element, int corner) const {
+  return nodes_per_element_ == 4 ? at(element, config_.share_field + corner) : 0.125;
+}
+
 void SolidGroup::add_masses(std::span<double> mass, std::span<double> /*inertia*/) const {
   for (Index e = 0; e < size(); ++e) {
     const ElementNodes mine = nodes(e);
     for (int k = 0; k < nodes_per_element_; ++k) {
-      const double share = nodes_per_element_ == 4 ? at(e, config_.share_field + k) : 0.125;
-      mass[static_cast<std::size_t>(mine[static_cast<std::size_t>(k)])] += share * at(e, f_mass);
+      mass[static_cast<std::size_t>(mine[static_cast<std::size_t>(k)])] += mass_share(e, k) * at(e, f_mass);
     }
   }
 }
@@ -287,11 +291,11 @@ void SolidGroup::share_masses() const {
   // rho^n V_0 of the reference's small strain changes from cycle to cycle.
   if (shares_.valid && !reference_part_mass_) return;
   std::vector<double> masses(chunks_.nodes().size(), 0.0);
-  const double share = 1.0 / nodes_per_element_;
+  const double equal = 1.0 / nodes_per_element_;
   for (Index e = 0; e < size(); ++e) {
-    if (!(at(e, f_live) > 0.0)) continue;
+    if (!(at(e, nodal_part_sums_ ? f_off : f_live) > 0.0)) continue;
     const double mass = reference_part_mass_ ? at(e, f_density) * at(e, f_volume) : at(e, f_mass);
-    for (int k = 0; k < nodes_per_element_; ++k) masses[chunks_.place(e, k)] += share * mass;
+    for (int k = 0; k < nodes_per_element_; ++k) masses[chunks_.place(e, k)] += (nodal_part_sums_ ? mass_share(e, k) : equal) * mass;
   }
   shares_.mass = NodalShares::Values(std::move(masses));
   shares_.leaves.resize(static_cast<std::size_t>(chunks_.size()));

@@ -54,6 +54,7 @@ class SolidGroup : public Group {
   SolidConfig config_;
   double density_ = 0.0;              ///< rho_i, gives the masses
   bool reference_part_mass_ = false;  ///< small strain: part sums with rho^n V_0 (4.3.4)
+  bool nodal_part_sums_ = true;
   int nodes_per_element_ = 0;
 
  private:
@@ -63,6 +64,7 @@ class SolidGroup : public Group {
   std::vector<SolidChunk> results_;
   mutable NodalShares shares_;
 
+  [[nodiscard]] double mass_share(Index element, int corner) const;
   void share_masses() const;
 };
 

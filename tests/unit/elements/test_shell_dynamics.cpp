@@ -247,13 +247,13 @@ TEST(ShellStepLimits, RemoveAndFreeze) {
   }
 }
 
-// A rigid element: no force, no step, not in the part's sums; the others are untouched. A NaN is found and named.
+// A rigid element: no force, no step, in the part's sums but for the reference profile; the others are untouched. A NaN is found and named.
 TEST(ShellGroups, RigidElementsPartSumsAndBadElements) {
   ShellModel s({210.0, 0.3, 2.0}, 0.5);
   for (int i = 0; i < 11; ++i) s.node({1.0 * i, 0, 0});
   for (int i = 0; i < 11; ++i) s.node({1.0 * i, 1, 0});
   for (Index i = 0; i < 10; ++i) s.quad(i, i + 1, i + 12, i + 11);
-  Runner r(s, true);
+  Runner r(s, true, Profile::reference());
   std::vector<std::uint8_t> rigid(10, 0);
   rigid[3] = 1;
   r.group->set_rigid(rigid);
@@ -264,6 +264,9 @@ TEST(ShellGroups, RigidElementsPartSumsAndBadElements) {
   double kinetic = 0.0;
   for (int i = 0; i < 10; ++i) kinetic += i == 3 ? 0.0 : 0.25 * 0.01 * (i * i + (i + 1) * (i + 1));
   EXPECT_NEAR(sums.kinetic_energy, kinetic, 1e-12);
+  Runner all(s, true);
+  all.group->set_rigid(rigid);
+  EXPECT_NEAR(all.group->part_sums(r.v.data(), r.w.data()).mass, 10.0, 1e-12);
   EXPECT_EQ(r.step(1e-3).part_sums.kinetic_energy, sums.kinetic_energy);
   EXPECT_EQ(r.group->output(3).resultants[0], 0.0);
   EXPECT_GT(r.group->output(4).resultants[0], 0.0);

@@ -47,16 +47,19 @@ TEST(Erosion, BooksTheEnergyAndSaysWhatWent) {
   const std::string failing = "/MAT/PLAS_JOHNS/5\nfailing\n" + reals({density}) + reals({young, poisson}) + reals({0.3, 0, 1, 0.02}) +
                               reals({0}) + reals({0}) + "/PROP/SHELL/5\nthree points\n" + ints({1, 2}) + reals({0, 0, 0, 0, 0}) +
                               "         3         0                 0.1                   0                   0         0\n";
-  const std::string deck =
-      materials + failing + nodes(1, square) + nodes(11, {{3, 0, 0}, {4, 0, 0}, {4, 1, 0}, {3, 1, 0}}) + part(7, 5, 5) + part(8, 2, 1) +
-      element("SHELL", 7, 21, {1, 2, 3, 4}) + element("SHELL", 8, 22, {11, 12, 13, 14}) + group("GRNOD/NODE", 1, {1, 4}) +
-      group("GRNOD/NODE", 2, {2, 3}) + bcs("111 111", 1) + "/FUNCT/1\nconstant\n" + reals({0, 1}) + reals({10, 1}) +
-      "/IMPVEL/1\npull\n         1         X         0         0         2         0         0\n" + reals({0, 0.2, 0, 0});
+  const std::string deck = materials + failing + nodes(1, square) + nodes(11, {{3, 0, 0}, {4, 0, 0}, {4, 1, 0}, {3, 1, 0}}) +
+                           part(7, 5, 5) + part(8, 2, 1) + element("SHELL", 7, 21, {1, 2, 3, 4}) +
+                           element("SHELL", 8, 22, {11, 12, 13, 14}) + group("GRNOD/NODE", 1, {1, 4}) + group("GRNOD/NODE", 2, {2, 3}) +
+                           bcs("111 111", 1) + "/FUNCT/1\nconstant\n" + reals({0, 1}) + reals({10, 1}) +
+                           "/IMPVEL/1\npull\n         1         X         0         0         2         0         0\n" +
+                           reals({0, 0.2, 0, 0}) + "/TH/PART/1\nparts\nDEF\n" + ints({7, 8});
   const abut::Run run = run_of(deck, engine(0.3));
   const Balance& b = run.balance();
   EXPECT_EQ(b.ie + b.he, 0.0);
   EXPECT_NEAR(b.xe, 0.3 * 0.1 * 0.02, 0.1 * 0.3 * 0.1 * 0.02);  // the yield stress over the failure strain
   EXPECT_LT(std::fabs(b.err), 0.01);
+  EXPECT_EQ(last(run, "PART/7/MASS"), 0.0);
+  EXPECT_NEAR(last(run, "PART/8/MASS"), 0.1 * density, 1e-14 * density);
   ASSERT_EQ(run.findings().size(), 2U);
   const RunFinding& deleted = run.findings()[0];
   EXPECT_EQ(deleted.diagnostic.code, "run.elements_deleted");
