@@ -1,9 +1,11 @@
 // /TH, /SECT and /ACCEL (deck-format.md F). Outputs cannot change the mechanics: what abut has not is left out with a warning.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "model/condition_fields.hpp"
 #include "model/th_variables.hpp"
@@ -125,13 +127,15 @@ class HistoryReader {
     }
   }
 
-  /// Requests by kind and id, each variable once, in the order of its table.
+  /// Requests by kind and id, those of one object in the order of the deck, each variable once, in the order of its table.
   void finish() {
-    for (auto& [key, request] : requests_) {
-      for (const std::string& name : th_variables(request.first.kind)) {
-        if (request.second.contains(name)) request.first.variables.push_back(name);
+    for (auto& [key, requests] : requests_) {
+      for (auto& [request, variables] : requests) {
+        for (const std::string& name : th_variables(request.kind)) {
+          if (variables.contains(name)) request.variables.push_back(name);
+        }
+        c_.model->th_requests.push_back(std::move(request));
       }
-      c_.model->th_requests.push_back(std::move(request.first));
     }
   }
 
@@ -174,6 +178,13 @@ class HistoryReader {
     return true;
   }
 
+  static void warn_of_skew(BlockReader& r, ThKind kind) {
+    if (deck::parse_integer(r.text({11, 20})).value_or(0) == 0) return;
+    const std::string_view axes = kind == ThKind::brick ? "stresses are along the global axes" : "values are those of the element's frame";
+    r.warning("model.left_out", {11, 20}, "skew_ID",
+              fmt::format("the time history of /TH/{} knows no skew: {} (only nodes may have one)", th_word(kind), axes));
+  }
+
   void read_lines(BlockReader& r, ThKind kind, const std::set<std::string>& variables) {
     while (r.next_card()) {
       if (r.place({1, 10}, "object").file != r.place().file) return r.leave_rest();  // text of an included file below the last object (H.2)
@@ -184,6 +195,7 @@ class HistoryReader {
       const Id id = r.integer({1, 10}, "object");
       if (id == 0) continue;
       if (kind == ThKind::node && names_frame(r)) continue;
+      if (kind != ThKind::node) warn_of_skew(r, kind);
       const Index skew = kind == ThKind::node ? read_skew(r, {11, 20}, "skew_ID") : no_index;
       add(r, kind, id, skew, std::string(r.text({21, 100}, "name")), variables);
     }
@@ -232,8 +244,10 @@ class HistoryReader {
     if (found == table(kind).end()) return warn_missing(r, kind, id);
     request.index = found->second;
     request.name = name.empty() ? title_of(kind, request.index) : std::move(name);
-    auto& entry = requests_.try_emplace({kind, id, request.skew}, std::pair{request, std::set<std::string>{}}).first->second;
-    entry.second.insert(variables.begin(), variables.end());
+    std::vector<Asked>& asked = requests_[{kind, id}];
+    auto same = std::find_if(asked.begin(), asked.end(), [skew](const Asked& a) { return a.request.skew == skew; });
+    if (same == asked.end()) same = asked.insert(asked.end(), {std::move(request), {}});
+    same->variables.insert(variables.begin(), variables.end());
   }
 
   void warn_missing(BlockReader& r, ThKind kind, Id id) {
@@ -242,7 +256,11 @@ class HistoryReader {
   }
 
   Context& c_;
-  std::map<std::tuple<ThKind, Id, Index>, std::pair<ThRequest, std::set<std::string>>> requests_;
+  struct Asked {
+    ThRequest request;
+    std::set<std::string> variables;
+  };
+  std::map<std::pair<ThKind, Id>, std::vector<Asked>> requests_;  ///< of an object one per skew, the first one first
 };
 
 /// /TH, and /ATH to /ITH, which ask for files of their own.

@@ -56,6 +56,21 @@ TEST(Outputs, TwoGroupsOfOneObjectAreOneRequest) {
   EXPECT_EQ(find(b.model, ThKind::part, 1)->variables.size(), 9u);
 }
 
+// The first request of a node names its columns: it stays the first whatever skew the later ones have.
+TEST(Outputs, RequestsOfOneNodeKeepTheOrderOfTheDeck) {
+  for (const bool global_first : {false, true}) {
+    const std::string in_skew = "/TH/NODE/20\nturned\nDX\n" + integers({"13", "1"}) + "\n";
+    const Built b = build_text(global_first ? with_line(base_starter, "/END", 0, in_skew + "/END")
+                                            : with_line(base_starter, "/TH/PART/2", 0, in_skew + "/TH/PART/2"));
+    ASSERT_EQ(b.messages(), std::vector<std::string>{});
+    std::vector<Index> skews;
+    for (const ThRequest& r : b.model.th_requests) {
+      if (r.kind == ThKind::node && r.id == 13) skews.push_back(r.skew);
+    }
+    EXPECT_EQ(skews, global_first ? (std::vector<Index>{no_index, 0}) : (std::vector<Index>{0, no_index}));
+  }
+}
+
 TEST(Outputs, ElementsWallsBodiesAndAccelerometers) {
   const Built b =
       build_text(with_line(base_starter, "/TH/PART/2", 0,

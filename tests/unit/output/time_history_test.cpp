@@ -123,7 +123,11 @@ TEST_F(TimeHistoryTest, ASkewTurnsVectorsAndASecondSkewHasItsOwnName) {
   scene_.model.skews.push_back(fixed);
   scene_.model.th_requests.push_back(request(model::ThKind::node, 105, 4, {"DX"}));
   scene_.model.th_requests.push_back(request(model::ThKind::node, 105, 4, {"DX", "DY", "DZ", "X"}, 0));
+  scene_.model.th_requests.push_back(request(model::ThKind::node, 101, 0, {"DX"}, 0));
+  scene_.model.th_requests.push_back(request(model::ThKind::node, 101, 0, {"DX"}));
   const auto r = row();
+  EXPECT_EQ(r.at("NODE/101/DX"), scene_.state.u[0].y);
+  EXPECT_EQ(r.at("NODE/101:0/DX"), scene_.state.u[0].x);
   EXPECT_EQ(r.at("NODE/105/DX"), scene_.state.u[4].x);
   EXPECT_EQ(r.at("NODE/105:9/DX"), scene_.state.u[4].y);
   EXPECT_EQ(r.at("NODE/105:9/DY"), -scene_.state.u[4].x);
