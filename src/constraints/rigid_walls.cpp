@@ -94,6 +94,9 @@ void RigidWalls::apply(state::State& state) {
   stops_.before(state);
   for (std::size_t i = 0; i < walls_.size(); ++i) apply_wall(i, state);
   meter_.after(state);
+  if (!same_cycle_) return;
+  const state::StepTimes& t = state.times;
+  momentum_correction_ = (0.5 * t.h_minus / t.h_bar - 1.0) * stops_.gained(state, *bodies_);
 }
 
 void RigidWalls::add_forces(std::span<Vec3> force) const {

@@ -63,6 +63,11 @@ class RigidWalls {
   /// Step 25, of the external work: what the energies of elements and contact lack of the work up to the stop (StopWork).
   [[nodiscard]] double stop_work(const state::State& state) const { return stops_.settle(state); }
 
+  /// Step 25: what the sum of m (v(n-1/2) + h-/2 a(n)) lacks of the momentum at t^n. Nodes are stopped by a jump of v, which that sum has
+  /// whole, and the wall gets the impulse by its acceleration, of which it has h-/(2 h_bar): with this, both sides have the latter.
+  /// Reference profile: nothing.
+  [[nodiscard]] const Vec3& momentum_correction() const { return momentum_correction_; }
+
   void persist(state::Archive& a);
 
   [[nodiscard]] std::span<const WallSums> results() const { return sums_; }  ///< per model rigid wall
@@ -119,6 +124,7 @@ class RigidWalls {
   std::vector<WallSums> sums_;
   std::vector<Point> points_;  ///< of the wall at work
   double work_ = 0.0;
+  Vec3 momentum_correction_;  ///< of this cycle
   WorkMeter meter_;
   StopWork stops_;
 };

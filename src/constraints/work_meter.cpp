@@ -49,6 +49,15 @@ double StopWork::settle(const state::State& state) const {
   return 0.5 * state.times.h_bar * sum;
 }
 
+Vec3 StopWork::gained(const state::State& state, const RigidBodies& bodies) const {
+  Vec3 sum;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(nodes_[k]);
+    if (bodies.body_of(nodes_[k]) == no_index) sum += state.mass[i] * (state.v[i] - entry_[k].v);
+  }
+  return sum;
+}
+
 WorkMeter::WorkMeter(std::vector<Index> nodes, const RigidBodies* bodies)
     : nodes_(std::move(nodes)), bodies_(bodies), entry_(nodes_.size()), da_(nodes_.size()), dalpha_(nodes_.size()) {}
 

@@ -53,6 +53,8 @@ class StopWork {
   void before(const state::State& state);
   /// Step 25.
   [[nodiscard]] double settle(const state::State& state) const;
+  /// Momentum that jumps of v since before() brought to the nodes; secondary nodes of active bodies are left out (they are overwritten).
+  [[nodiscard]] Vec3 gained(const state::State& state, const RigidBodies& bodies) const;
 
  private:
   struct Entry {

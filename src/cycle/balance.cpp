@@ -127,7 +127,7 @@ void Cycle::close_balance() {
   b.ker = kinetic.rotation + body.rotation;
   // T* of the ledger knows how rigid bodies move between half-steps; in cycle 0 it is one-sided (translation and rotation are not).
   b.ke = product_form && state_.times.cycle > 0 ? t_star - b.ker : kinetic.translation + body.translation;
-  b.momentum = kinetic.momentum + body.momentum;
+  b.momentum = kinetic.momentum + body.momentum + walls_.momentum_correction();
   b.mass = kinetic.mass + body.mass;
   b.added_mass = time_step_->added_mass();
   b.ie = b.he = b.ce = b.fw = b.dw = b.cx = 0.0;
