@@ -199,6 +199,13 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
     turn(wx1, wy1, gw1);
     turn(wx2, wy2, gw2);
     turn(wx3, wy3, gw3);
+    curvature_at_midpoint(rate, g.px1 * (wx1 - wx2) * inverse_area, (g.py1 * (wx1 - wx3) + g.py2 * (wx2 - wx3)) * inverse_area,
+                          g.px1 * (wy1 - wy2) * inverse_area, (g.py1 * (wy1 - wy3) + g.py2 * (wy2 - wy3)) * inverse_area, half * rate.exx,
+                          T(0.0), half * rate.gxy, half * rate.eyy);
+  } else {
+    rate.kxx = g.px1 * (wy1 - wy2) * inverse_area;
+    rate.kyy = -((g.py1 * (wx1 - wx3) + g.py2 * (wx2 - wx3)) * inverse_area);
+    rate.kxy = (g.py1 * (wy1 - wy3) + g.py2 * (wy2 - wy3) - g.px1 * (wx1 - wx2)) * inverse_area;
   }
   const C0ShearRows<T> r = c0_shear_rows(g);
   const T zx = shear_x + (r.zx_x1 * wx1 + r.zx_x2 * wx2) + (r.zx_y1 * wy1 + r.zx_y2 * wy2 + r.zx_y3 * wy3);
@@ -208,9 +215,9 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
   rate.gxy = select(alive, rate.gxy, zero);
   rate.gyz = select(alive, yz * inverse_area, zero);
   rate.gzx = select(alive, zx * inverse_area, zero);
-  rate.kxx = select(alive, g.px1 * (wy1 - wy2) * inverse_area, zero);
-  rate.kyy = select(alive, -((g.py1 * (wx1 - wx3) + g.py2 * (wx2 - wx3)) * inverse_area), zero);
-  rate.kxy = select(alive, (g.py1 * (wy1 - wy3) + g.py2 * (wy2 - wy3) - g.px1 * (wx1 - wx2)) * inverse_area, zero);
+  rate.kxx = select(alive, rate.kxx, zero);
+  rate.kyy = select(alive, rate.kyy, zero);
+  rate.kxy = select(alive, rate.kxy, zero);
 
   const ShellForces<T> n = update_section<T, law>(s, state, rate, h, g.area);
   const T t = n.thickness, t2 = t * t;

@@ -6,7 +6,9 @@
 //   transverse shear: d tau = kappa_s G d gamma, elastic in every law
 //   membrane damping: mu = 1.414 dm rho c sqrt(A); F += mu (e_xx + e_yy/2, e_yy + e_xx/2, g_xy/3) of the rates
 //   activity: 1 -> 0.8 when the failure criterion is met, then times 0.8, 0 in the cycle that starts below 0.1
-//   dE_m = V/2 (F_old + F_new) . de,   dE_b = V t/2 (M_old + M_new) . dkappa, with F, M damped and times the activity.
+//   dE_m = V/2 (F_old + F_new) . de,   dE_b = V t/2 (M_old + M_new) . dkappa, with F, M damped and times the activity; V and V t are means
+//   of the step (Profile::StrainIncrement; the reference: those at its end). Strains are of mid-step, so that V = A t (1 - tr de/2) but
+//   where thickness or frozen shapes do not follow the strain: there the last step's are kept.
 // The thickness changes at the end: everything of a cycle uses the thickness at its start.
 #pragma once
 
@@ -55,6 +57,7 @@ struct ShellSection {
   bool bending = true;        ///< false for N = 1
   bool thickness_changes = false;
   bool step_wanted = true;        ///< GroupInput
+  bool mean_volume = true;        ///< Profile::StrainIncrement
   double membrane_damping = 0.0;  ///< 1.414 dm rho c; 0 = none
   double zeta[max_thickness_points] = {}, weight[max_thickness_points] = {}, moment_weight[max_thickness_points] = {};
 
@@ -66,6 +69,7 @@ struct ShellSection {
   int at_elastic = -1;         ///< LAW1 with damping: F xx yy xy; LAW2: tau yz zx, both without damping and activity
   int at_rate = -1;            ///< filtered rate of the element
   int at_rate_thickness = -1;  ///< thickness of the bending term of the rate while the thickness itself is constant
+  int at_volume = -1;          ///< half of A t and of A t^2 in the last step's forces
   int at_points = -1;          ///< per point: sigma xx yy xy, p, hardening; then the optional ones below
   int point_size = 0;
   int point_back = -1, point_rate = -1, point_temperature = -1;
@@ -92,6 +96,15 @@ ABUT_INLINE void membrane_at_midpoint(ShellRates<T>& rate, T dxx, T dxy, T dyx, 
   rate.exx = x + (quarter * four * (x * x) + both - turned);
   rate.eyy = y + (quarter * four * (y * y) + both + turned);
   rate.gxy = shear + shear * (quarter * four * (x + y) + T(turn) * h * (x - y));
+}
+
+/// Curvature rates from the gradients of the angular velocity at mid-step: `xx` is that of omega_x along x, `xy` along y.
+/// @param cxx cyx cxy cyy  half of the strain increments by which gradients of x^n become those of mid-step, C^T grad
+template <class T>
+ABUT_INLINE void curvature_at_midpoint(ShellRates<T>& rate, T xx, T xy, T yx, T yy, T cxx, T cyx, T cxy, T cyy) {
+  rate.kxx = yx + (cxx * yx + cyx * yy);
+  rate.kyy = -(xy + (cxy * xx + cyy * xy));
+  rate.kxy = (yy + (cxy * yx + cyy * yy)) - (xx + (cxx * xx + cyx * xy));
 }
 
 template <class T>
@@ -314,13 +327,23 @@ ABUT_INLINE ShellForces<T> update_section(const ShellSection& s, double* state, 
   }
   out.off = off;
 
-  const T half_volume = T(0.5) * area * t;
+  T half_volume = T(0.5) * area * t, half_moment = half_volume * t;
+  if (s.at_volume >= 0) {
+    const T force = half_volume, moment = half_moment;
+    half_volume = T(0.5) * (get<T>(state, s.at_volume) + force);
+    half_moment = T(0.5) * (get<T>(state, s.at_volume + 1) + moment);
+    put(state, s.at_volume, force);
+    put(state, s.at_volume + 1, moment);
+  } else if (s.mean_volume) {
+    half_volume -= half_volume * (T(0.5) * (dexx + deyy));
+    half_moment = half_volume * t;
+  }
   const T membrane = (old_fxx + out.fxx) * dexx + (old_fyy + out.fyy) * deyy + (old_fxy + out.fxy) * dgxy + (old_fyz + out.fyz) * dgyz +
                      (old_fzx + out.fzx) * dgzx;
   const T bending = (old_mxx + out.mxx) * dkxx + (old_myy + out.myy) * dkyy + (old_mxy + out.mxy) * dkxy;
   const auto on = off_old > T(0.0);  // a deleted element keeps its energies, whatever becomes of its shape
   put(state, shell_state::membrane_energy, get<T>(state, shell_state::membrane_energy) + select(on, half_volume * membrane, T(0.0)));
-  put(state, shell_state::bending_energy, get<T>(state, shell_state::bending_energy) + select(on, half_volume * t * bending, T(0.0)));
+  put(state, shell_state::bending_energy, get<T>(state, shell_state::bending_energy) + select(on, half_moment * bending, T(0.0)));
   put(state, 0, out.fxx);
   put(state, 1, out.fyy);
   put(state, 2, out.fxy);

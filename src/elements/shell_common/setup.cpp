@@ -51,6 +51,7 @@ void lay_out_state(ShellSection& s, ShellLaw law) {
     at = total;
     total += count;
   };
+  if (s.mean_volume && s.thickness_changes) add(s.at_volume, s.variables, 2);
   if (law == ShellLaw::elastic) {
     if (s.membrane_damping > 0.0) add(s.at_elastic, s.variables, 3);
     return;
@@ -113,6 +114,7 @@ std::optional<ShellSection> make_section(const GroupInput& in, bool mean_yield) 
   if (shell == nullptr) { throw std::invalid_argument("property " + std::to_string(property.id) + " is not a shell property"); }
   ShellSection s;
   s.step_wanted = in.step_wanted;
+  s.mean_volume = in.profile.strain_increment == Profile::StrainIncrement::midpoint;
   const auto* johnson_cook = std::get_if<model::LawJohnsonCook>(&material.law);
   const auto* elastic = std::get_if<model::LawElastic>(&material.law);
   s.elastic = johnson_cook != nullptr ? materials::ShellElastic::of(johnson_cook->young, johnson_cook->poisson)

@@ -62,6 +62,10 @@ Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p
   if (q.may_freeze) {
     q.at_frozen = s.variables;
     s.variables += 7;
+    if (s.mean_volume && s.at_volume < 0) {
+      s.at_volume = s.variables;
+      s.variables += 2;
+    }
   }
   return q;
 }

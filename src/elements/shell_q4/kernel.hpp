@@ -206,15 +206,23 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
       rate_x += two * (g.z2 * (gx + T(0.25) * wys));
       rate_y += two * (g.z2 * (gy - T(0.25) * wxs));
     }
+    const T along = half * rate.exx, across = half * rate.eyy, sheared = T(0.5) * half * rate.gxy;
+    curvature_at_midpoint(rate, (g.px1 * wx13 + g.px2 * wx24) * inverse_area, (g.py1 * wx13 + g.py2 * wx24) * inverse_area,
+                          (g.px1 * wy13 + g.px2 * wy24) * inverse_area, (g.py1 * wy13 + g.py2 * wy24) * inverse_area, along, sheared,
+                          sheared, across);
+  } else {
+    rate.kxx = (g.px1 * wy13 + g.px2 * wy24) * inverse_area;
+    rate.kyy = -((g.py1 * wx13 + g.py2 * wx24) * inverse_area);
+    rate.kxy = (g.py1 * wy13 + g.py2 * wy24 - g.px1 * wx13 - g.px2 * wx24) * inverse_area;
   }
   rate.exx = select(alive, rate.exx, zero);
   rate.eyy = select(alive, rate.eyy, zero);
   rate.gxy = select(alive, rate.gxy, zero);
   rate.gyz = select(alive, gy - T(0.25) * wxs, zero);
   rate.gzx = select(alive, gx + T(0.25) * wys, zero);
-  rate.kxx = select(alive, (g.px1 * wy13 + g.px2 * wy24) * inverse_area, zero);
-  rate.kyy = select(alive, -((g.py1 * wx13 + g.py2 * wx24) * inverse_area), zero);
-  rate.kxy = select(alive, (g.py1 * wy13 + g.py2 * wy24 - g.px1 * wx13 - g.px2 * wx24) * inverse_area, zero);
+  rate.kxx = select(alive, rate.kxx, zero);
+  rate.kyy = select(alive, rate.kyy, zero);
+  rate.kxy = select(alive, rate.kxy, zero);
 
   // section and hourglass
   const ShellForces<T> n = update_section<T, law>(s, state, rate, h, g.area);
