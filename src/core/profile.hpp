@@ -29,8 +29,9 @@ struct Profile {
   /// mid-step, turned to the axes at its end, to second order; or from the geometry at its end, without what a rotation in the step adds
   /// but where the reference takes it out.
   enum class StrainIncrement { midpoint, reference };
-  /// Warped shells (Ishell 3 and 4) whose hourglass rates leave out what a rigid rotation makes: rates and forces see the same, the nodes'
-  /// rotations, or v_z where there are none (N = 1); or rates see v_z and forces act on the rotations, if there are any.
+  /// Warped shells: hourglass rates leave out what a rigid rotation makes, rates and forces see the same, the nodes' rotations, or v_z
+  /// where there are none (N = 1); or Ishell 3 and 4 have rates that see v_z and forces on the rotations, if there are any, and 1 and 2 are
+  /// flat.
   enum class WarpedShell { balanced, reference };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };

@@ -21,6 +21,18 @@ struct Q4Geometry {
   T gamma1, gamma2, gamma3, gamma4;
 };
 
+/// Gamma . x
+template <class T>
+ABUT_INLINE T pattern_x(const Q4Geometry<T>& g) {
+  return g.x3 - g.x2 - g.x4;
+}
+
+/// Gamma . y
+template <class T>
+ABUT_INLINE T pattern_y(const Q4Geometry<T>& g) {
+  return g.y3 - g.y2 - g.y4;
+}
+
 template <class T>
 ABUT_INLINE void q4_frame(bool frame_v4, const Vec<T>& x1, const Vec<T>& x2, const Vec<T>& x3, const Vec<T>& x4, Q4Geometry<T>& g) {
   const T one = T(1.0);

@@ -50,7 +50,8 @@ Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p
   q.trapezoidal = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;
   q.homogeneous = in.profile.rotational_hourglass == Profile::RotationalHourglass::homogeneous;
   q.midpoint = in.profile.strain_increment == Profile::StrainIncrement::midpoint;
-  q.balanced_warp = p.ishell >= 3 && in.profile.warped_shell == Profile::WarpedShell::balanced;
+  q.balanced_warp = in.profile.warped_shell == Profile::WarpedShell::balanced;
+  q.plain_pattern = q.balanced_warp && q.plain_gamma;
   q.rotation_correction = in.profile.shell_rotation == Profile::ShellRotation::exact ? 0.125 : 0.25;
 
   q.at_hourglass = s.variables;

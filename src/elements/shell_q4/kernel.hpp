@@ -141,7 +141,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
     rate_x = vxh - (g.px1 * vx13 + g.px2 * vx24) * g.hx - (g.py1 * vx13 + g.py2 * vx24) * g.hy;
     rate_y = vyh - (g.px1 * vy13 + g.px2 * vy24) * g.hx - (g.py1 * vy13 + g.py2 * vy24) * g.hy;
   };
-  const T z_force = q.ishell >= 3 && s.bending ? g.z2 : zero;  // height at which the hourglass forces of a warped element act
+  const T z_force = (q.balanced_warp || q.ishell >= 3) && s.bending ? g.z2 : zero;  // height at which hourglass forces act when warped
   if (q.midpoint || q.ishell <= 2) set_hourglass_rates();
   if (!q.midpoint && q.ishell <= 2) {
     const T factor = T(q.rotation_correction * h);
@@ -195,11 +195,22 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
     turn(wxs, wys, motion.wzs);
     turn(wxh, wyh, motion.wzh);
     // Hourglass: the operator of x^n sees the pattern half a step late too. What turns the corners' heights is no hourglass motion.
-    const T p = two * (g.z2 * gx), r = two * (g.z2 * gy), x = rate_x - p, y = rate_y - r, z = rate_z;
+    T p = two * (g.z2 * gx), r = two * (g.z2 * gy), u = zero;
+    if (q.plain_pattern) {  // nor what turns the pattern itself, where gamma does not leave it out
+      const T spin = T(0.5) * (gyx - gxy);
+      p -= spin * pattern_y(g);
+      r += spin * pattern_x(g);
+      u = gx * pattern_x(g) + gy * pattern_y(g);
+    }
+    const T x = rate_x - p, y = rate_y - r, z = rate_z - u;
     rate_x = x - two * (a * y + b * z) - a * r;
     rate_y = y + two * (a * x - c * z) + a * p;
     rate_z = z + (b * (two * x + p) + c * (two * y + r));
-    if (q.ishell <= 2) {  // flat elements see it
+    if (q.plain_pattern) {
+      rate_x -= b * u;
+      rate_y -= c * u;
+    }
+    if (!q.balanced_warp && q.ishell <= 2) {  // flat elements see it
       rate_x += p;
       rate_y += r;
     } else if (s.bending && q.balanced_warp) {  // their forces act on the rotations, beyond which the corners' heights tilt by shear
@@ -241,14 +252,24 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
                                          : q4_step_reference(s, q, g, t, regular, damping, hg.stiffness);
 
   // nodal forces and moments in the frame: gradient part of nodes 1 and 2, the rest
-  const T f1x = t * (n.fxx * g.px1 + n.fxy * g.py1), f2x = t * (n.fxx * g.px2 + n.fxy * g.py2);
-  const T f1y = t * (n.fyy * g.py1 + n.fxy * g.px1), f2y = t * (n.fyy * g.py2 + n.fxy * g.px2);
+  T f1x = t * (n.fxx * g.px1 + n.fxy * g.py1), f2x = t * (n.fxx * g.px2 + n.fxy * g.py2);
+  T f1y = t * (n.fyy * g.py1 + n.fxy * g.px1), f2y = t * (n.fyy * g.py2 + n.fxy * g.px2);
   T f1z = t * (n.fzx * g.px1 + n.fyz * g.py1) + (hg.dn_1 + hg.dn_2);
   T f2z = t * (n.fzx * g.px2 + n.fyz * g.py2) + (hg.dn_1 - hg.dn_2);
   if (q.balanced_warp && !s.bending) {  // what the hourglass rates do not see of v_z
     const T slope = two * g.z2 * n.off * inverse_area;
     f1z -= slope * (hg.qx * g.px1 + hg.qy * g.py1);
     f2z -= slope * (hg.qx * g.px2 + hg.qy * g.py2);
+  }
+  if (q.plain_pattern) {  // the moments of the hourglass forces, which the rates do not see
+    const T per_area = n.off * inverse_area, x = pattern_x(g) * per_area, y = pattern_y(g) * per_area;
+    const T twist = T(0.5) * (x * hg.qy - y * hg.qx);
+    f1x += twist * g.py1;
+    f2x += twist * g.py2;
+    f1y -= twist * g.px1;
+    f2y -= twist * g.px2;
+    f1z -= hg.qz * (x * g.px1 + y * g.py1);
+    f2z -= hg.qz * (x * g.px2 + y * g.py2);
   }
   const T t2 = t * t;
   const T m1x = -(t2 * (n.myy * g.py1 + n.mxy * g.px1)), m2x = -(t2 * (n.myy * g.py2 + n.mxy * g.px2));

@@ -14,7 +14,8 @@ struct Q4Parameters {
   bool trapezoidal = true;             ///< Profile::HourglassEnergy
   bool homogeneous = true;             ///< Profile::RotationalHourglass
   bool midpoint = true;                ///< Profile::StrainIncrement
-  bool balanced_warp = false;          ///< Profile::WarpedShell, of Ishell 3 or 4
+  bool balanced_warp = true;           ///< Profile::WarpedShell
+  bool plain_pattern = false;          ///< balanced, with plain_gamma: rates and forces without what rotations make of gamma . x
   double rotation_correction = 0.125;  ///< without midpoint: factor of the second-order terms of Ishell 1 and 2, 1/8 exact, 1/4 reference
 
   int at_hourglass = -1;      ///< elastic Q_x Q_y Q_z

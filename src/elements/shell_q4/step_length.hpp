@@ -17,9 +17,10 @@
 //               bending and shear do not add up: max(k_b, k_s).
 //   hourglass   rank one each: membrane k_h = E h_m t/8 |gamma|^2/mu (both directions alike, orthogonal), normal
 //               k_z |gamma|^2/mu. gamma is not orthogonal to P on a distorted quad: they add to k_m and to k_s.
-//   warped quads (Ishell 3, 4): rates see the rotations on which the forces act, through z2/2: k (|gamma|^2/mu + z2^2/J), added to the
-//               largest. Membranes (N = 1) have none: k (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu)). Where rates see v_z and forces act on
-//               rotations (Profile::WarpedShell) K is not symmetric; its norm is at most the root of the product of both.
+//   gamma = Gamma without what rotations make of its X = Gamma . x (Profile::WarpedShell): all rows at most |Gamma|^2 + X^2 S/A^2.
+//   warped quads (reference: Ishell 3, 4 only): rates see the rotations on which the forces act, through z2/2: k (|gamma|^2/mu + z2^2/J),
+//               added to the largest. Membranes (N = 1) have none: k (|gamma|^2/mu + 4 z2^2 p_max/(A^2 mu)). Where rates see v_z and forces
+//               act on rotations (Profile::WarpedShell) K is not symmetric; its norm is at most the root of the product of both.
 // Viscous parts: membrane damping has the form of the membrane with d [1 1/2; 1/2 1] and d/3 in shear in place of C. That is not isotropic
 // (d/4 would be); it is majorised by the isotropic d [13 5; 5 13]/12, d/3, exact for squares; the quadratic hourglass
 // terms enter with their tangent 2 c |rate|; linear ones (Ishell 3 rotations, N = 1 with dn) as they are. N = 1 has no bending and no
@@ -57,7 +58,11 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
   const T root = sqrt(max(a11 * a11 * trace * trace - four * a2 * T(s.elastic.a11 * s.elastic.young), zero));
   const T membrane = half * t_per_am * (a11 * trace + root);
   const T p_max = half * (trace + sqrt(max(trace * trace - four * a2, zero)));
-  const T gamma2 = (g.gamma1 * g.gamma1 + g.gamma2 * g.gamma2 + g.gamma3 * g.gamma3 + g.gamma4 * g.gamma4) * inverse_mass;
+  T gamma2 = (g.gamma1 * g.gamma1 + g.gamma2 * g.gamma2 + g.gamma3 * g.gamma3 + g.gamma4 * g.gamma4) * inverse_mass;
+  if (q.plain_pattern) {
+    const T x = pattern_x(g) * inverse_area, y = pattern_y(g) * inverse_area;
+    gamma2 += (x * x + y * y) * trace * inverse_mass;
+  }
   T out_of_plane = hg.normal * gamma2;
   if (s.bending) {
     const T kg = T(s.shear_factor * s.elastic.shear);
@@ -65,7 +70,7 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
     out_of_plane = max(out_of_plane + shear, membrane * T(1.0 / 12.0) * t * t * (inverse_inertia * mass));
   }
   T k;
-  if (q.ishell >= 3) {
+  if (q.balanced_warp || q.ishell >= 3) {
     const T z2 = g.z2 * g.z2;
     const T seen = gamma2 + four * z2 * p_max * inverse_mass * (inverse_area * inverse_area);
     const T on_rotations = gamma2 + z2 * inverse_inertia;
