@@ -59,6 +59,10 @@ Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p
   if (q.trapezoidal) {
     q.at_hourglass_old = s.variables;
     s.variables += 5;
+    if (!s.bending && p.dn > 0.0) {
+      q.at_normal_old = s.variables;
+      s.variables += 2;
+    }
   }
   if (q.may_freeze) {
     q.at_frozen = s.variables;

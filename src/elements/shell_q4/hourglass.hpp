@@ -99,7 +99,14 @@ ABUT_INLINE Q4Hourglass<T> q4_hourglass(const ShellSection& s, const Q4Parameter
     put(state, at + 3, o.mx);
     put(state, at + 4, o.my);
   }
-  work = (work + o.dn_1 * d1 + o.dn_2 * d2) * off;
+  T normal_work = o.dn_1 * d1 + o.dn_2 * d2;
+  if (p.at_normal_old >= 0) {
+    const int at = p.at_normal_old;
+    normal_work = T(0.5) * (normal_work + (get<T>(state, at) * d1 + get<T>(state, at + 1) * d2));
+    put(state, at, o.dn_1);
+    put(state, at + 1, o.dn_2);
+  }
+  work = (work + normal_work) * off;
   put(state, shell_state::hourglass_energy, get<T>(state, shell_state::hourglass_energy) + select(off > zero, work * step, zero));
   o.mx *= off;
   o.my *= off;

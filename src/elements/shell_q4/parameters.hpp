@@ -20,6 +20,7 @@ struct Q4Parameters {
 
   int at_hourglass = -1;      ///< elastic Q_x Q_y Q_z
   int at_hourglass_old = -1;  ///< total q_x q_y q_z mu_x mu_y of the last step (trapezoidal energy)
+  int at_normal_old = -1;     ///< N = 1 with dn: normal forces of the last step (trapezoidal energy)
   int at_frozen = -1;         ///< x2 y2 x3 y3 x4 y4 and a flag: 0 free, 1/2 freeze now, 1 frozen
 };
 

@@ -64,5 +64,31 @@ TEST(ShellEnergy, IsTheWorkOfTheForcesUnderStress) {
   }
 }
 
+// N = 1 with dn: the normal viscosity takes energy by the mean of old and new force, or the sum is 10 % short.
+TEST(ShellEnergy, NormalViscosityOfMembranesCloses) {
+  ShellModel s({1.0, 0.3, 1.0}, 0.1);
+  s.property().points = 1;
+  s.property().dn = 0.1;
+  s.single({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  Runner r(s, true);
+  for (std::size_t k = 0; k < 4; ++k) r.v[k].z = 1e-6 * (k < 2 ? 1.0 : -0.5);
+  const double h = 0.9 * r.step(0.0).step, first = r.kinetic();
+  double taken = 0.0, worst = 0.0, start = 0.0;
+  for (int n = 0; n < 200; ++n) {
+    const std::vector<Vec3> v = r.v;
+    const GroupResult g = r.cycle(h, n == 0);
+    double kinetic = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) kinetic += 0.5 * r.mass[k] * dot(v[k], r.v[k]);
+    if (n == 0) continue;
+    const double all = kinetic + g.internal_energy + g.hourglass_energy;
+    if (n == 1) start = all;
+    worst = std::max(worst, std::abs(all - start) / first);
+    taken = g.hourglass_energy / first;
+  }
+  std::printf("[found] normal viscosity takes %.3f of the energy, balance closes to %.1e\n", taken, worst);
+  EXPECT_GT(taken, 0.5);
+  EXPECT_LT(worst, 1e-3);
+}
+
 }  // namespace
 }  // namespace abut::elements
