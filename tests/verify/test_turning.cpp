@@ -258,4 +258,26 @@ TEST(Turning, WarpedShellsTurnFreely) {
   }
 }
 
+// Small strain: gradients of cycle 0, a frame that turns; rates that hold the spin times a displacement would drive the vibration.
+TEST(Turning, SmallStrainShellsKeepTheEnergy) {
+  for (const int ishell : {1, 2, 3, 4}) {
+    for (const double irregular : {0.0, 0.1}) {
+      Scene s("turning");
+      const Index property = s.shell_property(0.002);
+      auto& shell = std::get<model::ShellProperty>(s.model.properties[0].data);
+      shell.ishell = ishell;
+      shell.ismstr = ishell == 2 ? 3 : 1;
+      s.shells(s.part(property, s.elastic(7800.0, 210e9, 0.3)), 4, 4, [irregular](double u, double v) {
+        const double aside = irregular * std::sin(7 * u) * std::cos(5 * v);
+        return side * Vec3{u - 0.5 + aside, v - 0.5 - 0.6 * aside, 0};
+      });
+      turn(s, forms[0], (1000.0 / std::sqrt(14.0)) * Vec3{1, 2, 3}, 1.0);
+      const double end = kept(s, 5 * 2.0 * std::numbers::pi / 1000.0, Profile::standard());
+      std::printf("[found] turning and vibrating with small strain, Ishell %d, %s: energy after 5 turns %.5f\n", ishell,
+                  irregular > 0.0 ? "irregular" : "squares", end);
+      EXPECT_NEAR(end, 1.0, 1e-3) << ishell;
+    }
+  }
+}
+
 }  // namespace

@@ -188,7 +188,7 @@ ABUT_INLINE void c0_lanes(const ShellKernelArgs& args, const C0Parameters& q, do
     // As in shell_q4/kernel.hpp; the frame follows side 1-2.
     const T half = T(0.5 * h), dxx = rate.exx, dyy = rate.eyy, gx = slope_x * inverse_area, gy = slope_y * inverse_area;
     const T a = half * gyx, b = half * gx, c = half * gy, two = T(2.0);
-    membrane_at_midpoint(rate, dxx, gxy, gyx, dyy, gx, gy, T(h), 0.5, true);
+    membrane_at_midpoint(rate, dxx, gxy, gyx, dyy, gx, gy, T(h), 0.5);
     shear_x = slope_x + g.area * (two * (b * dxx + c * gyx) - a * gy);
     shear_y = slope_y + g.area * (two * (b * gxy + c * dyy) + a * gx);
     const auto turn = [&](T & x, T & y, const Vec<T>& w) __attribute__((always_inline)) {

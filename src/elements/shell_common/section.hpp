@@ -85,13 +85,13 @@ struct ShellRates {
 /// Membrane strains of the motion at mid-step as the turning frame saw them (docs/theory/elements.md): E + h E^2 + h/2 (O E - E O),
 /// E = sym L - h/2 L^T L with the velocity gradient L in the frame, whose third row is the rotation out of the plane; O the frame's spin
 /// beyond that of L.
-/// @param dxx to dzy  rows of L. @param turn  O_yx, over 2 E_xy. @param stretches  false: the turning alone, for small strains
+/// @param dxx to dzy  rows of L. @param turn  O_yx, over 2 E_xy
 template <class T>
-ABUT_INLINE void membrane_at_midpoint(ShellRates<T>& rate, T dxx, T dxy, T dyx, T dyy, T dzx, T dzy, T h, double turn, bool stretches) {
+ABUT_INLINE void membrane_at_midpoint(ShellRates<T>& rate, T dxx, T dxy, T dyx, T dyy, T dzx, T dzy, T h, double turn) {
   const T half = T(0.5) * h;
   const T x = dxx - half * (dxx * dxx + dyx * dyx + dzx * dzx), y = dyy - half * (dxy * dxy + dyy * dyy + dzy * dzy);
   const T shear = (dxy + dyx) - h * (dxx * dxy + dyx * dyy + dzx * dzy);
-  const T quarter = T(stretches ? 0.25 : 0.125) * h, four = T(4.0);
+  const T quarter = T(0.25) * h, four = T(4.0);
   const T both = quarter * (shear * shear), turned = T(turn) * half * (shear * shear);
   rate.exx = x + (quarter * four * (x * x) + both - turned);
   rate.eyy = y + (quarter * four * (y * y) + both + turned);

@@ -21,6 +21,26 @@ struct Q4Geometry {
   T gamma1, gamma2, gamma3, gamma4;
 };
 
+/// Corners in the frame as they are, frozen or not: node 1 minus node 3, 2 minus 4, and 1 - 2 + 3 - 4.
+template <class T>
+struct Q4Shape {
+  T x13, y13, x24, y24, xh, yh, zh;
+};
+
+/// Gradient vectors and area of that shape.
+template <class T>
+struct Q4Gradient {
+  T px1, py1, px2, py2, inverse_area;
+};
+
+template <class T>
+ABUT_INLINE Q4Gradient<T> q4_gradient(const Q4Shape<T>& now) {
+  const T half = T(0.5);
+  Q4Gradient<T> p{half * now.y24, -(half * now.x24), -(half * now.y13), half * now.x13, T(0.0)};
+  p.inverse_area = T(1.0) / (T(2.0) * (p.py2 * p.px1 - p.py1 * p.px2));
+  return p;
+}
+
 /// Gamma . x
 template <class T>
 ABUT_INLINE T pattern_x(const Q4Geometry<T>& g) {

@@ -50,6 +50,7 @@ Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p
   q.trapezoidal = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;
   q.homogeneous = in.profile.rotational_hourglass == Profile::RotationalHourglass::homogeneous;
   q.midpoint = in.profile.strain_increment == Profile::StrainIncrement::midpoint;
+  q.local_rates = q.may_freeze && q.midpoint;
   q.balanced_warp = in.profile.warped_shell == Profile::WarpedShell::balanced;
   q.plain_pattern = q.balanced_warp && q.plain_gamma;
   q.rotation_correction = in.profile.shell_rotation == Profile::ShellRotation::exact ? 0.125 : 0.25;
@@ -66,7 +67,7 @@ Q4Parameters make_parameters(const GroupInput& in, const model::ShellProperty& p
   }
   if (q.may_freeze) {
     q.at_frozen = s.variables;
-    s.variables += 7;
+    s.variables += q.local_rates ? 14 : 7;
     if (s.mean_volume && s.at_volume < 0) {
       s.at_volume = s.variables;
       s.variables += 2;

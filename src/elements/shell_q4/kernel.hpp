@@ -16,6 +16,7 @@
 #include "elements/shell_common/finish_block.hpp"
 #include "elements/shell_common/kernel_args.hpp"
 #include "elements/shell_common/section.hpp"
+#include "elements/shell_q4/frozen.hpp"
 #include "elements/shell_q4/geometry.hpp"
 #include "elements/shell_q4/hourglass.hpp"
 #include "elements/shell_q4/parameters.hpp"
@@ -25,23 +26,6 @@
 namespace abut::elements {
 
 namespace q4_detail {
-
-/// Small strain: takes the coordinates of the lanes that freeze now, returns those of the frozen ones.
-template <class T>
-ABUT_INLINE void freeze(double* frozen, Q4Geometry<T>& g) {
-  using section_detail::get;
-  using section_detail::put;
-  const T flag = get<T>(frozen, 6);
-  const auto old = flag >= T(1.0);
-  const auto held = flag > T(0.0);
-  T* const current[6] = {&g.x2, &g.y2, &g.x3, &g.y3, &g.x4, &g.y4};
-  for (int i = 0; i < 6; ++i) {
-    *current[i] = select(old, get<T>(frozen, i), *current[i]);
-    put(frozen, i, *current[i]);
-  }
-  put(frozen, 6, select(held, T(1.0), T(0.0)));
-  g.z2 = select(held, T(0.0), g.z2);
-}
 
 /// |d| not below 1e-20, sign kept.
 template <class T>
@@ -63,14 +47,17 @@ struct Q4Motion {
   Q4Geometry<T> g;
   T vx13, vy13, vz13, vx24, vy24, vz24, vxh, vyh, vzh;
   T wx13, wy13, wz13, wx24, wy24, wz24, wxs, wys, wzs, wxh, wyh, wzh;
+  Q4Shape<T> now;  ///< with local_rates
 };
 
 /// First stage: positions, frame, operators.
 template <class T>
 ABUT_INLINE void q4_geometry(const ShellKernelArgs& args, const Q4Parameters& q, double* state, const std::int32_t* nodes,
-                             Q4Geometry<T>& g) {
+                             Q4Motion<T>& motion) {
+  Q4Geometry<T>& g = motion.g;
   q4_frame(q.frame_v4, gather(T{}, args.x, nodes), gather(T{}, args.x, nodes + 8), gather(T{}, args.x, nodes + 16),
            gather(T{}, args.x, nodes + 24), g);
+  if (q.local_rates) motion.now = {-g.x3, -g.y3, g.x2 - g.x4, g.y2 - g.y4, pattern_x(g), pattern_y(g), T(-2.0) * g.z2};
   if (q.may_freeze) q4_detail::freeze(state + q.at_frozen * shell_lanes, g);
   q4_operators(q.plain_gamma, g);
 }
@@ -135,7 +122,9 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
   T wxs = motion.wxs, wys = motion.wys, wxh = motion.wxh, wyh = motion.wyh;
 
   // slopes of v_z, hourglass rates, second-order corrections
-  T gy = (g.py1 * vz13 + g.py2 * vz24) * inverse_area, gx = (g.px1 * vz13 + g.px2 * vz24) * inverse_area;
+  Q4Gradient<T> p_now{g.px1, g.py1, g.px2, g.py2, inverse_area};  // frozen elements turn as they are
+  if (q.local_rates) p_now = q4_gradient(motion.now);
+  T gy = (p_now.py1 * vz13 + p_now.py2 * vz24) * p_now.inverse_area, gx = (p_now.px1 * vz13 + p_now.px2 * vz24) * p_now.inverse_area;
   T rate_x, rate_y, rate_z = vzh - g.area * (g.hx * gx + g.hy * gy);
   const auto set_hourglass_rates = [&]() __attribute__((always_inline)) {
     rate_x = vxh - (g.px1 * vx13 + g.px2 * vx24) * g.hx - (g.py1 * vx13 + g.py2 * vx24) * g.hy;
@@ -173,15 +162,16 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
 
   // velocity strains and curvature rates
   ShellRates<T> rate;
-  rate.exx = (g.px1 * vx13 + g.px2 * vx24) * inverse_area;
-  rate.eyy = (g.py1 * vy13 + g.py2 * vy24) * inverse_area;
-  const T gxy = (g.py1 * vx13 + g.py2 * vx24) * inverse_area, gyx = (g.px1 * vy13 + g.px2 * vy24) * inverse_area;
+  rate.exx = (p_now.px1 * vx13 + p_now.px2 * vx24) * p_now.inverse_area;
+  rate.eyy = (p_now.py1 * vy13 + p_now.py2 * vy24) * p_now.inverse_area;
+  const T gxy = (p_now.py1 * vx13 + p_now.py2 * vx24) * p_now.inverse_area;
+  const T gyx = (p_now.px1 * vy13 + p_now.px2 * vy24) * p_now.inverse_area;
   rate.gxy = gxy + gyx;
   if (q.midpoint) {
     // Half a step's turn is (c, -b, a): the frame of mid-step is e1 - a e2 - b e3, e2 + a e1 - c e3, e3 + b e1 + c e2.
     const T half = T(0.5 * h), dxx = rate.exx, dyy = rate.eyy;
     const T a = half * (T(0.5) * (gyx - gxy)), b = half * gx, c = half * gy;
-    membrane_at_midpoint(rate, dxx, gxy, gyx, dyy, gx, gy, T(h), 0.0, !q.may_freeze);
+    membrane_at_midpoint(rate, dxx, gxy, gyx, dyy, gx, gy, T(h), 0.0);
     const T raw_x = gx;
     gx = gx + two * (b * dxx + c * gyx) - a * gy;
     gy = gy + two * (b * gxy + c * dyy) + a * raw_x;
@@ -217,7 +207,14 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
       rate_x += two * (g.z2 * (gx + T(0.25) * wys));
       rate_y += two * (g.z2 * (gy - T(0.25) * wxs));
     }
-    const T along = half * rate.exx, across = half * rate.eyy, sheared = T(0.5) * half * rate.gxy;
+    T along = half * rate.exx, across = half * rate.eyy, sheared = T(0.5) * half * rate.gxy;
+    if (q.local_rates) {
+      q4_detail::rates_of_frozen(q, state, g, motion.now, h, rate, rate_x, rate_y, rate_z);
+      const auto frozen = get<T>(state, q.at_frozen + 6) > zero;
+      along = select(frozen, zero, along);
+      across = select(frozen, zero, across);
+      sheared = select(frozen, zero, sheared);
+    }
     curvature_at_midpoint(rate, (g.px1 * wx13 + g.px2 * wx24) * inverse_area, (g.py1 * wx13 + g.py2 * wx24) * inverse_area,
                           (g.px1 * wy13 + g.px2 * wy24) * inverse_area, (g.py1 * wy13 + g.py2 * wy24) * inverse_area, along, sheared,
                           sheared, across);
@@ -271,6 +268,11 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
     f1z -= hg.qz * (x * g.px1 + y * g.py1);
     f2z -= hg.qz * (x * g.px2 + y * g.py2);
   }
+  if (q.local_rates) {
+    Q4GradientForces<T> f{f1x, f1y, f1z, f2x, f2y, f2z};
+    q4_detail::balance_frozen(q, state, g, motion.now, p_now, n, hg, f);
+    f1x = f.x1, f1y = f.y1, f1z = f.z1, f2x = f.x2, f2y = f.y2, f2z = f.z2;
+  }
   const T t2 = t * t;
   const T m1x = -(t2 * (n.myy * g.py1 + n.mxy * g.px1)), m2x = -(t2 * (n.myy * g.py2 + n.mxy * g.px2));
   const T m1y = t2 * (n.mxx * g.px1 + n.mxy * g.py1), m2y = t2 * (n.mxx * g.px2 + n.mxy * g.py2);
@@ -317,7 +319,7 @@ ABUT_INLINE void q4_blocks(const ShellKernelArgs& args, const Q4Parameters& q, d
     double* state = args.state + b * stride;
     simd::prefetch(state + stride, stride);
     ask(args.ahead, b - begin, end - begin, {args.x, args.v, args.w});
-    for (int p = 0; p < shell_lanes / width; ++p) q4_geometry(args, q, state + p * width, nodes + p * width, motion[p].g);
+    for (int p = 0; p < shell_lanes / width; ++p) q4_geometry(args, q, state + p * width, nodes + p * width, motion[p]);
     for (int p = 0; p < shell_lanes / width; ++p) q4_motion(args, nodes + p * width, motion[p]);
     for (int p = 0; p < shell_lanes / width; ++p) q4_lanes<T, law>(args, q, damping, b, p * width, motion[p]);
     finish_block<T, 4>(args, b);
