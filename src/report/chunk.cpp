@@ -115,6 +115,16 @@ Chunk integers(std::span<const std::uint32_t> values, int components) {
   return out;
 }
 
+Chunk identifiers(std::span<const std::int64_t> ids) {
+  std::vector<std::uint32_t> words;
+  words.reserve(2 * ids.size());
+  for (const std::int64_t id : ids) {
+    words.push_back(static_cast<std::uint32_t>(id));
+    words.push_back(static_cast<std::uint32_t>(id >> 32));
+  }
+  return integers(words, 2);
+}
+
 Chunk singles(std::span<const float> values, int components) {
   Chunk out = chunk("f32", values.size(), components);
   const auto width = static_cast<std::size_t>(components);

@@ -32,6 +32,8 @@ inline constexpr std::uint16_t no_value = 65535;
 [[nodiscard]] Chunk quantised(std::span<const float> values, int components);
 /// @param values  #count * components, interleaved
 [[nodiscard]] Chunk integers(std::span<const std::uint32_t> values, int components);
+/// Ids that may be beyond 32 bits: u32 of two components, the low word and the high one.
+[[nodiscard]] Chunk identifiers(std::span<const std::int64_t> ids);
 [[nodiscard]] Chunk singles(std::span<const float> values, int components);
 [[nodiscard]] Chunk bytes(std::span<const std::uint8_t> values);
 

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <fstream>
-#include <limits>
 #include <string_view>
 
 namespace abut::report {
@@ -18,14 +17,9 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-/// Single precision holds what a plot shows; numbers beyond its range become NaN, which is a gap in the line.
-bool parse(std::string_view text, float& out) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return false;
-  const bool fits = value <= std::numeric_limits<float>::max() && value >= -std::numeric_limits<float>::max();
-  out = fits ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN();
-  return true;
+bool parse(std::string_view text, double& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc() && end == text.data() + text.size();
 }
 
 }  // namespace
@@ -37,7 +31,7 @@ History read_history(const std::filesystem::path& file) {
   if (!std::getline(in, line)) return history;
   for (const std::string_view name : split(line)) history.names.emplace_back(name);
   history.columns.resize(history.names.size());
-  std::vector<float> row(history.names.size());
+  std::vector<double> row(history.names.size());
   while (std::getline(in, line)) {
     const std::vector<std::string_view> cells = split(line);
     bool complete = cells.size() == row.size() && !in.eof();

@@ -8,8 +8,8 @@
 namespace abut::report {
 
 struct History {
-  std::vector<std::string> names;           ///< the first is "time"
-  std::vector<std::vector<float>> columns;  ///< #names, each #rows
+  std::vector<std::string> names;            ///< the first is "time"
+  std::vector<std::vector<double>> columns;  ///< #names, each #rows
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
 };
 

@@ -1,7 +1,9 @@
 #include "report/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <string>
@@ -52,9 +54,27 @@ std::string in_script(const Json& json) {
   return out;
 }
 
+/// Single precision holds what a plot shows; numbers beyond its range become NaN, which is a gap in the line. Ids stay as they are.
+Chunk history_chunk(const std::string& name, const std::vector<double>& column) {
+  if (name == "GLOBAL/DTID") {
+    constexpr double exact = 9007199254740992.0;  // 2^53
+    std::vector<std::int64_t> ids;
+    for (const double v : column) ids.push_back(std::fabs(v) <= exact ? static_cast<std::int64_t>(v) : 0);
+    return identifiers(ids);
+  }
+  std::vector<float> values;
+  for (const double v : column) {
+    const bool fits = std::fabs(v) <= static_cast<double>(std::numeric_limits<float>::max());
+    values.push_back(fits ? static_cast<float>(v) : std::numeric_limits<float>::quiet_NaN());
+  }
+  return singles(values, 1);
+}
+
 Json history_json(const History& history, ChunkStore& store) {
   Json j{{"names", history.names}, {"rows", history.rows()}, {"columns", Json::array()}};
-  for (const auto& column : history.columns) j["columns"].push_back(store.add(singles(column, 1)));
+  for (std::size_t k = 0; k < history.names.size(); ++k) {
+    j["columns"].push_back(store.add(history_chunk(history.names[k], history.columns[k])));
+  }
   return j;
 }
 

@@ -183,10 +183,11 @@ Json mesh_json(const Grid& first, const Mesh& mesh, ChunkStore& store) {
     origin[c] = mesh.nodes.empty() ? 0.0 : 0.5 * (low + high);
   }
   std::vector<float> x;
-  std::vector<std::uint32_t> node_id, corners, face_element, element_id, element_part;
+  std::vector<std::int64_t> node_id, element_id;
+  std::vector<std::uint32_t> corners, face_element, element_part;
   for (const Index n : mesh.nodes) {
     for (std::size_t c = 0; c < 3; ++c) x.push_back(static_cast<float>(initial(n, c) - origin[c]));
-    node_id.push_back(static_cast<std::uint32_t>(first.node_id.empty() ? n + 1 : first.node_id[at(n)]));
+    node_id.push_back(first.node_id.empty() ? n + 1 : first.node_id[at(n)]);
   }
   for (const Face& f : mesh.faces.faces()) {
     for (const Index n : f.nodes) corners.push_back(static_cast<std::uint32_t>(mesh.node_number[at(n)]));
@@ -199,22 +200,25 @@ Json mesh_json(const Grid& first, const Mesh& mesh, ChunkStore& store) {
     index = static_cast<std::uint32_t>(parts.size());
     parts.push_back(id);
   }
+  std::vector<std::size_t> part_elements(parts.size());
+  for (const Cell& c : first.cells) ++part_elements[part_number[c.part]];
   std::vector<std::uint8_t> shape;
   for (const Index c : mesh.cells) {
     const Cell& cell = first.cells[at(c)];
-    element_id.push_back(static_cast<std::uint32_t>(cell.id));
+    element_id.push_back(cell.id);
     element_part.push_back(part_number[cell.part]);
     shape.push_back(static_cast<std::uint8_t>(cell.shape));
   }
   return {{"origin", origin},
           {"points", store.add(singles(x, 3))},
-          {"node_id", store.add(integers(node_id, 1))},
+          {"node_id", store.add(identifiers(node_id))},
           {"faces", store.add(integers(corners, 4))},
           {"face_element", store.add(integers(face_element, 1))},
-          {"element_id", store.add(integers(element_id, 1))},
+          {"element_id", store.add(identifiers(element_id))},
           {"element_part", store.add(integers(element_part, 1))},
           {"element_shape", store.add(bytes(shape))},
           {"parts", parts},
+          {"part_elements", part_elements},
           {"elements_total", first.cells.size()},
           {"nodes_total", first.points.size() / 3}};
 }

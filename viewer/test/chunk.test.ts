@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
-import { NO_VALUE, TOP, constantChunk, decodeChunk, dequantise, fromBase64, type ChunkInfo } from "../src/data/chunk";
+import { NO_VALUE, TOP, constantChunk, decodeChunk, dequantise, fromBase64, idsOf, type ChunkInfo } from "../src/data/chunk";
 
 /** Planar integers of `width` bytes to a chunk's text. */
 function encode(values: number[], components: number, width: 2 | 4, differences: boolean): string {
@@ -69,4 +69,11 @@ test("a chunk without text is its lowest value everywhere", () => {
   const data = constantChunk(info);
   assert.equal(data.length, 3);
   assert.equal(dequantise(data[2]!, info, 0), 7);
+});
+
+test("ids beyond 32 bits are exact", async () => {
+  const ids = [5000000001, 5000000002, 9999999999, 7];
+  const words = [...ids.map((i) => i % 2 ** 32), ...ids.map((i) => Math.floor(i / 2 ** 32))];
+  const info: ChunkInfo = { id: 0, kind: "u32", count: 4, components: 2 };
+  assert.deepEqual([...idsOf(await decodeChunk(info, encode(words, 2, 4, true)))], ids);
 });

@@ -2,9 +2,18 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { NO_VALUE, TOP, type ChunkInfo } from "../src/data/chunk";
-import { allFindings, errorText, outcomeText, type Frame, type RunManifest } from "../src/data/document";
+import { allFindings, errorText, outcomeText, phaseShares, type Frame, type RunManifest } from "../src/data/document";
 import { chunkRange, componentsOf, fieldRange, scalarQuanta, valueAt } from "../src/data/fields";
-import { columnDimension, controllerShares, energyLines, errorLines, interfaceIds, interfaceLines, nearestIndex } from "../src/data/series";
+import {
+  columnDimension,
+  controllerShares,
+  controllerText,
+  energyLines,
+  errorLines,
+  interfaceIds,
+  interfaceLines,
+  nearestIndex,
+} from "../src/data/series";
 import { formatNumber, plural, unitName } from "../src/data/units";
 import { colorAt, colorMaps, colorTable, ticks } from "../src/view/colormap";
 
@@ -109,6 +118,27 @@ test("who controls the time step, most often first", () => {
   assert.deepEqual(controllerShares([1, 1, 6, 1], [8, 8, 2, 9]), [
     { kind: 1, rows: 3, id: 8, idRows: 2 },
     { kind: 6, rows: 1, id: 2, idRows: 1 },
+  ]);
+});
+
+test("a share of the step names the object that has it, or the most frequent one with its own share", () => {
+  const [brick, contact] = controllerShares([3, 3, 6, 3], [20000017, 20000017, 2, 20000018]);
+  assert.equal(controllerText(brick!, 4), "brick, most often 20000017 (50 %)");
+  assert.equal(controllerText(contact!, 4), "interface 2");
+  assert.equal(controllerText({ kind: 7, rows: 4, id: 0, idRows: 4 }, 4), "fixed");
+});
+
+test("shares of the phases add up to one: parts of a phase do not count again", () => {
+  const timings = [
+    { name: "run", seconds: 11 },
+    { name: "elements", seconds: 6 },
+    { name: "elements bricks", seconds: 5.5 },
+    { name: "contact search", seconds: 2 },
+    { name: "output", seconds: 0 },
+  ];
+  assert.deepEqual(phaseShares({ timings } as unknown as RunManifest), [
+    { name: "elements", share: 0.75 },
+    { name: "contact search", share: 0.25 },
   ]);
 });
 

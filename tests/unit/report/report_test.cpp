@@ -36,7 +36,7 @@ class ReportTest : public ::testing::Test {
       if (change) change(k);
       cycle::Snapshot s = scene_.snapshot();
       s.animation_due = s.history_due = true;
-      s.controller = {cycle::StepController::Kind::brick, 41};
+      s.controller = {cycle::StepController::Kind::brick, controller_};
       sinks.cycle(s);
     }
     sinks.end({});
@@ -59,6 +59,13 @@ class ReportTest : public ::testing::Test {
   [[nodiscard]] std::vector<std::uint32_t> integers_of(const Json& about) const {
     return test::read_integers(about["kind"], about["count"], about["components"], chunk_text(about));
   }
+  [[nodiscard]] std::vector<std::int64_t> ids_of(const Json& about) const {
+    EXPECT_EQ(about["components"], 2);
+    const std::vector<std::uint32_t> words = integers_of(about);
+    std::vector<std::int64_t> ids;
+    for (std::size_t i = 0; i < words.size(); i += 2) ids.push_back(words[i] + (std::int64_t{words[i + 1]} << 32));
+    return ids;
+  }
   [[nodiscard]] std::vector<double> values_of(std::size_t frame, const std::string& field) const {
     const Json& fields = document_["fields"];
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -74,6 +81,7 @@ class ReportTest : public ::testing::Test {
 
   abut::test::TemporaryFolder folder_;
   Scene scene_;
+  Id controller_ = 41;
   std::vector<init::ContactFinding> findings_;
   Written written_;
   std::string text_;
@@ -87,22 +95,23 @@ TEST_F(ReportTest, NodesElementsAndFacesAreThoseOfTheModel) {
   EXPECT_EQ(written_.elements, 6u);
   EXPECT_EQ(written_.bytes, text_.size());
   const Json& mesh = document_["mesh"];
-  const auto node_id = integers_of(mesh["node_id"]);
-  const auto element_id = integers_of(mesh["element_id"]);
+  const auto node_id = ids_of(mesh["node_id"]);
+  const auto element_id = ids_of(mesh["element_id"]);
   EXPECT_EQ(node_id.size(), 12u);
-  for (const std::uint32_t id : {31u, 32u, 41u, 42u, 43u, 51u}) {
+  for (const std::int64_t id : {31, 32, 41, 42, 43, 51}) {
     EXPECT_NE(std::find(element_id.begin(), element_id.end(), id), element_id.end()) << id;
   }
   EXPECT_EQ(mesh["parts"], (Json{11, 22}));
+  EXPECT_EQ(mesh["part_elements"], (Json{2, 4}));
   // The quadrilateral shell 31 comes first, with its nodes by id.
   const auto faces = integers_of(mesh["faces"]);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(node_id[faces[k]], 101u + k);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(node_id[faces[k]], 101 + static_cast<std::int64_t>(k));
   // Positions: origin + point is the initial position.
   const auto words = test::read_integers("f32", 12, 3, chunk_text(mesh["points"]));
   for (std::size_t n = 0; n < 12; ++n) {
     for (std::size_t c = 0; c < 3; ++c) {
       const double x = mesh["origin"][c].get<double>() + static_cast<double>(std::bit_cast<float>(words[3 * n + c]));
-      EXPECT_NEAR(x, scene_.model.node_x[node_id[n] - 101][static_cast<int>(c)], 1e-6);
+      EXPECT_NEAR(x, scene_.model.node_x[static_cast<std::size_t>(node_id[n]) - 101][static_cast<int>(c)], 1e-6);
     }
   }
 }
@@ -115,12 +124,12 @@ TEST_F(ReportTest, FieldsComeBackWithinAQuantum) {
     }
   });
   write();
-  const auto node_id = integers_of(document_["mesh"]["node_id"]);
+  const auto node_id = ids_of(document_["mesh"]["node_id"]);
   for (std::size_t k = 0; k < 2; ++k) {
     const auto u = values_of(k, "displacement");
     const auto pressure = values_of(k, "contact_pressure");
     for (std::size_t n = 0; n < node_id.size(); ++n) {
-      const std::size_t m = node_id[n] - 101;
+      const auto m = static_cast<std::size_t>(node_id[n] - 101);
       EXPECT_NEAR(u[3 * n], 0.01 * double(m * (k + 1)), 1e-5);
       EXPECT_NEAR(u[3 * n + 1], -0.5, 1e-7);
       EXPECT_NEAR(u[3 * n + 2], 2.0 * double(k) - 0.1 * double(m), 2e-5);
@@ -140,7 +149,7 @@ TEST_F(ReportTest, DeletedElementsDisappearAndWhatIsBehindThemIsSeen) {
   EXPECT_EQ(document_["frames"][1]["deleted"], 1);
   const auto hidden = integers_of(document_["frames"][1]["hidden"]);
   const auto element = integers_of(document_["mesh"]["face_element"]);
-  const auto element_id = integers_of(document_["mesh"]["element_id"]);
+  const auto element_id = ids_of(document_["mesh"]["element_id"]);
   int of_wedge = 0;
   for (std::size_t f = 0; f < hidden.size(); ++f) {
     if (element_id[element[f]] != 42) continue;
@@ -149,7 +158,7 @@ TEST_F(ReportTest, DeletedElementsDisappearAndWhatIsBehindThemIsSeen) {
   }
   EXPECT_EQ(of_wedge, 5);
   EXPECT_TRUE(std::isnan(
-      values_of(1, "von_mises")[static_cast<std::size_t>(std::find(element_id.begin(), element_id.end(), 42u) - element_id.begin())]));
+      values_of(1, "von_mises")[static_cast<std::size_t>(std::find(element_id.begin(), element_id.end(), 42) - element_id.begin())]));
 }
 
 TEST_F(ReportTest, TheHistoryHasEveryColumnAndTheController) {
@@ -168,7 +177,26 @@ TEST_F(ReportTest, TheHistoryHasEveryColumnAndTheController) {
   };
   EXPECT_EQ(column("time"), (std::vector<float>{0.0f, 0.25f, 0.5f}));
   EXPECT_EQ(column("GLOBAL/DTKIND"), (std::vector<float>{3.0f, 3.0f, 3.0f}));
-  EXPECT_EQ(column("GLOBAL/DTID"), (std::vector<float>{41.0f, 41.0f, 41.0f}));
+  const auto at = std::find(names.begin(), names.end(), "GLOBAL/DTID") - names.begin();
+  EXPECT_EQ(ids_of(document_["history"]["columns"][static_cast<std::size_t>(at)]), (std::vector<std::int64_t>(3, controller_)));
+}
+
+// Ids have up to ten digits: single precision knows 7 of them, 32 bits 9.
+TEST_F(ReportTest, LargeIdsAreExact) {
+  controller_ = 5000000001;
+  std::vector<Id> nodes = scene_.model.node_id.all();
+  nodes.back() = 9999999999;
+  scene_.model.node_id = {};
+  for (const Id id : nodes) scene_.model.node_id.push_back(id);
+  scene_.model.shells.id = {5000000001};
+  run({0.0, 0.5});
+  write();
+  const auto has = [](const std::vector<std::int64_t>& ids, std::int64_t id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); };
+  EXPECT_TRUE(has(ids_of(document_["mesh"]["node_id"]), 9999999999));
+  EXPECT_TRUE(has(ids_of(document_["mesh"]["element_id"]), 5000000001));
+  const auto& names = document_["history"]["names"];
+  const auto at = std::find(names.begin(), names.end(), "GLOBAL/DTID") - names.begin();
+  EXPECT_EQ(ids_of(document_["history"]["columns"][static_cast<std::size_t>(at)]), (std::vector<std::int64_t>(2, controller_)));
 }
 
 TEST_F(ReportTest, ContactSurfacesAreThereWithTheirSides) {

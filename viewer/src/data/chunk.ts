@@ -88,6 +88,12 @@ export async function decodeChunk(info: ChunkInfo, text: string): Promise<ChunkA
   return fromPlanes(await inflate(fromBase64(text)), info);
 }
 
+/** Ids of a u32 chunk of two components, the low words and the high ones: exact up to 2^53. */
+export function idsOf(words: ArrayLike<number>): Float64Array {
+  const n = words.length / 2;
+  return Float64Array.from({ length: n }, (_, i) => words[i]! + 4294967296 * words[n + i]!);
+}
+
 /** A chunk without text. */
 export function constantChunk(info: ChunkInfo): ChunkArray {
   const n = info.count * info.components;

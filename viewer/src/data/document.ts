@@ -68,6 +68,7 @@ export interface Frame {
 export interface MeshInfo {
   origin: [number, number, number];
   points: ChunkInfo;
+  /** Ids: idsOf(). */
   node_id: ChunkInfo;
   faces: ChunkInfo;
   face_element: ChunkInfo;
@@ -76,6 +77,8 @@ export interface MeshInfo {
   element_shape: ChunkInfo;
   /** Part ids; `element_part` counts in this list. */
   parts: number[];
+  /** Elements of each, also those that are not seen. */
+  part_elements: number[];
   elements_total: number;
   nodes_total: number;
 }
@@ -99,6 +102,13 @@ export function outcomeText(run: RunManifest): { short: string; long: string } {
   if (kind === "running") return { short: "not ended", long: "not ended: the run wrote no end; it goes on, or was stopped from outside" };
   if (kind === "finished") return { short: kind, long: "reached its end" };
   return { short: kind, long: message ? `${kind}: ${message}` : kind };
+}
+
+/** Phases of a run, the longest first, as shares of all. "elements shells" and the like are parts of "elements", "run" is the whole. */
+export function phaseShares(run: RunManifest): { name: string; share: number }[] {
+  const phases = (run.timings ?? []).filter((t) => t.name !== "run" && !t.name.startsWith("elements ") && t.seconds > 0);
+  const total = phases.reduce((sum, t) => sum + t.seconds, 0);
+  return phases.map((t) => ({ name: t.name, share: t.seconds / total })).sort((a, b) => b.share - a.share);
 }
 
 /** A share as text; null is what is not a number. Empty when there is none. */

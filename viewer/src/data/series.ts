@@ -1,10 +1,10 @@
 // Lines of the plots, from the columns of the time history.
 import type { ReportDocument } from "./document";
-import type { Dimension } from "./units";
+import { formatNumber, type Dimension } from "./units";
 
 export interface Line {
   label: string;
-  values: Float32Array | Float64Array;
+  values: Column;
   dimension: Dimension;
   /** Drawn against the right-hand axis. */
   right?: boolean;
@@ -12,7 +12,8 @@ export interface Line {
   off?: boolean;
 }
 
-export type Columns = Map<string, Float32Array>;
+export type Column = Float32Array | Float64Array;
+export type Columns = Map<string, Column>;
 
 const energyNames: Record<string, string> = {
   IE: "internal",
@@ -38,7 +39,7 @@ export function energyLines(columns: Columns): Line[] {
 }
 
 export function errorLines(columns: Columns): Line[] {
-  const percent = (v: Float32Array) => v.map((x) => 100 * x);
+  const percent = (v: Column) => Float64Array.from(v, (x) => 100 * x);
   const out: Line[] = [];
   const error = columns.get("GLOBAL/ERR");
   const ledger = columns.get("GLOBAL/LEDGER");
@@ -53,10 +54,10 @@ export function interfaceIds(names: readonly string[]): number[] {
   return [...new Set(ids.map(Number))];
 }
 
-function length(columns: Columns, prefix: string): Float32Array | undefined {
+function length(columns: Columns, prefix: string): Column | undefined {
   const parts = ["X", "Y", "Z"].map((c) => columns.get(prefix + c));
   if (parts.some((p) => !p)) return undefined;
-  return parts[0]!.map((x, i) => Math.hypot(x, parts[1]![i]!, parts[2]![i]!));
+  return Float64Array.from(parts[0]!, (x, i) => Math.hypot(x, parts[1]![i]!, parts[2]![i]!));
 }
 
 export function interfaceLines(columns: Columns, id: number): Line[] {
@@ -102,6 +103,14 @@ export function controllerShares(kinds: ArrayLike<number>, ids: ArrayLike<number
       return { kind, rows, id, idRows };
     })
     .sort((a, b) => b.rows - a.rows);
+}
+
+/** Who a share is about: the kind, and its only id, or the most frequent one with the share of that alone. */
+export function controllerText(share: ControllerShare, rows: number): string {
+  const kind = controllers[share.kind] ?? "?";
+  if (!(share.id > 0)) return kind;
+  if (share.idRows === share.rows) return `${kind} ${share.id}`;
+  return `${kind}, most often ${share.id} (${formatNumber((100 * share.idRows) / rows, 3)} %)`;
 }
 
 /** Dimension of a column by its name. */

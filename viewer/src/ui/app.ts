@@ -1,4 +1,5 @@
 // The page: header, panels, picture with its tools, plots.
+import { idsOf } from "../data/chunk";
 import { allFindings, type ReportDocument } from "../data/document";
 import { componentsOf, fieldText } from "../data/fields";
 import { nearestIndex, type Columns } from "../data/series";
@@ -156,7 +157,7 @@ export class App {
     ];
     if (this.picture) {
       const picture = this.picture;
-      entries.push({ id: "parts", title: "Parts", make: () => partsPanel(this.document, picture, this.state) });
+      entries.push({ id: "parts", title: "Parts", make: () => partsPanel(this.document, this.state) });
       entries.push({
         id: "pick",
         title: "Pick",
@@ -171,7 +172,9 @@ export class App {
   private async fillPlots(): Promise<void> {
     const { names, columns } = this.document.history;
     const arrays = await Promise.all(columns.map((c) => this.store.get(c)));
-    const table: Columns = new Map(names.map((name, i) => [name, arrays[i] as Float32Array]));
+    const table: Columns = new Map(
+      names.map((name, i) => [name, columns[i]!.kind === "u32" ? idsOf(arrays[i]!) : (arrays[i] as Float32Array)]),
+    );
     const { run } = this.document;
     const times = this.document.frames.map((f) => f.time);
     this.plots = new PlotPanel({

@@ -1,5 +1,5 @@
 // The panels at the left: what ran, parts, what was picked.
-import { errorText, outcomeText, type ReportDocument } from "../data/document";
+import { errorText, outcomeText, phaseShares, type ReportDocument } from "../data/document";
 import { formatCount, formatNumber, plural, unitName } from "../data/units";
 import { css, partColor } from "../view/colormap";
 import { h, icon, iconButton } from "./dom";
@@ -89,17 +89,15 @@ export function summaryPanel(document: ReportDocument): HTMLElement {
     );
   }
   const settings = run.settings ?? {};
-  const timing = (run.timings ?? []).filter((t) => t.name !== "run" && t.seconds > 0);
-  const total = timing.reduce((sum, t) => sum + t.seconds, 0);
-  if (timing.length > 0 && total > 0) {
-    const sorted = [...timing].sort((a, b) => b.seconds - a.seconds).slice(0, 6);
+  const phases = phaseShares(run).slice(0, 6);
+  if (phases.length > 0) {
     out.append(
       section(
         "Where the time went",
         h(
           "ul",
           { class: "bars" },
-          sorted.map((t) =>
+          phases.map((t) =>
             h(
               "li",
               null,
@@ -107,9 +105,9 @@ export function summaryPanel(document: ReportDocument): HTMLElement {
               h(
                 "span",
                 { class: "bar", "aria-hidden": "true" },
-                h("i", { style: `width:${((100 * t.seconds) / sorted[0]!.seconds).toFixed(1)}%` }),
+                h("i", { style: `width:${((100 * t.share) / phases[0]!.share).toFixed(1)}%` }),
               ),
-              h("span", { class: "number" }, `${formatNumber((100 * t.seconds) / total, 2)} %`),
+              h("span", { class: "number" }, `${formatNumber(100 * t.share, 2)} %`),
             ),
           ),
         ),
@@ -136,10 +134,9 @@ export function summaryPanel(document: ReportDocument): HTMLElement {
   return out;
 }
 
-export function partsPanel(document: ReportDocument, picture: Picture, state: State): HTMLElement {
+export function partsPanel(document: ReportDocument, state: State): HTMLElement {
   const parts = document.mesh!.parts;
-  const counts = new Array<number>(parts.length).fill(0);
-  for (const p of picture.elementPart) counts[p]!++;
+  const counts = document.mesh!.part_elements;
   const massUnit = document.run.model.units.mass;
   const toggle = (index: number, only: boolean) => {
     const hidden = new Set(state.shown.hiddenParts);

@@ -1,5 +1,5 @@
 // Joins the state with the view: which chunks a picture needs, and when it is drawn.
-import type { ChunkArray, ChunkInfo } from "../data/chunk";
+import { idsOf, type ChunkArray, type ChunkInfo } from "../data/chunk";
 import type { ReportDocument } from "../data/document";
 import { componentsOf, fieldRange, fieldText, scalarQuanta, valueAt, chunkRange, type Range } from "../data/fields";
 import type { ChunkStore } from "../data/store";
@@ -16,8 +16,8 @@ export interface Owner {
 
 export class Picture {
   readonly view: View;
-  readonly nodeIds: Uint32Array;
-  readonly elementIds: Uint32Array;
+  readonly nodeIds: Float64Array;
+  readonly elementIds: Float64Array;
   readonly faceElement: Uint32Array;
   readonly elementPart: Uint32Array;
   readonly elementShape: Uint8Array;
@@ -47,8 +47,8 @@ export class Picture {
       Uint8Array,
     ];
     this.points = points;
-    this.nodeIds = nodeIds;
-    this.elementIds = elementIds;
+    this.nodeIds = idsOf(nodeIds);
+    this.elementIds = idsOf(elementIds);
     this.faceElement = faceElement;
     this.elementPart = elementPart;
     this.elementShape = elementShape;

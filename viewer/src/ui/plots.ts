@@ -2,13 +2,14 @@
 import uPlot from "uplot";
 import {
   controllerShares,
-  controllers,
+  controllerText,
   energyLines,
   errorLines,
   interfaceIds,
   interfaceLines,
   columnDimension,
   nearestIndex,
+  type Column,
   type Columns,
   type Line,
 } from "../data/series";
@@ -42,7 +43,7 @@ class Plot {
   constructor(
     private readonly host: PlotHost,
     private readonly lines: Line[],
-    private readonly options: { percent?: boolean; strip?: Float32Array | undefined; label: string },
+    private readonly options: { percent?: boolean; strip?: Column | undefined; label: string },
   ) {
     this.on = lines.map((l) => !l.off);
     this.observer = new ResizeObserver(() => this.fill());
@@ -200,7 +201,7 @@ function padded(low: number | null, high: number | null): [number, number] {
 }
 
 /** A band at the bottom that says who controls the time step. */
-function drawStrip(u: uPlot, time: Float32Array, kinds: Float32Array): void {
+function drawStrip(u: uPlot, time: Column, kinds: Column): void {
   const { left, top, width, height } = u.bbox;
   const band = 7 * devicePixelRatio;
   u.ctx.save();
@@ -308,7 +309,7 @@ export class PlotPanel {
         "li",
         null,
         h("span", { class: "swatch", style: `background:var(${lineColors[s.kind % lineColors.length]})` }),
-        h("span", null, controllers[s.kind] ?? "?", s.id > 0 ? ` ${s.id}` : ""),
+        h("span", null, controllerText(s, kinds.length)),
         h("span", { class: "number" }, `${formatNumber((100 * s.rows) / kinds.length, 3)} %`),
       ),
     );
