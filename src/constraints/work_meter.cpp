@@ -39,12 +39,21 @@ void StopWork::before(const state::State& state) {
   }
 }
 
+void StopWork::after(const state::State& state) {
+  left_.resize(nodes_.size());
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(nodes_[k]);
+    left_[k] = {state.v[i], state.w[i]};
+  }
+}
+
 double StopWork::settle(const state::State& state) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const auto i = static_cast<std::size_t>(nodes_[k]);
-    sum += dot(state.f_contact[i] - state.f_internal[i], state.v[i] - entry_[k].v);
-    sum -= dot(state.m_internal[i], state.w[i] - entry_[k].w);
+    const Entry now = left_.empty() ? Entry{state.v[i], state.w[i]} : left_[k];
+    sum += dot(state.f_contact[i] - state.f_internal[i], now.v - entry_[k].v);
+    sum -= dot(state.m_internal[i], now.w - entry_[k].w);
   }
   return 0.5 * state.times.h_bar * sum;
 }

@@ -51,6 +51,8 @@ class StopWork {
   /// @param nodes whose velocity may jump
   explicit StopWork(std::vector<Index> nodes) : nodes_(std::move(nodes)), entry_(nodes_.size()) {}
   void before(const state::State& state);
+  /// Where others may change velocities later in the cycle: what they change is not of these jumps.
+  void after(const state::State& state);
   /// Step 25.
   [[nodiscard]] double settle(const state::State& state) const;
   /// Momentum that jumps of v since before() brought to the nodes; secondary nodes of active bodies are left out (they are overwritten).
@@ -62,6 +64,7 @@ class StopWork {
   };
   std::vector<Index> nodes_;
   std::vector<Entry> entry_;
+  std::vector<Entry> left_;  ///< empty: as it is in settle()
 };
 
 /// Measures the work of whatever changes v, w, a, alpha of its nodes between before() and after().

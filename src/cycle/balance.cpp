@@ -117,7 +117,8 @@ void Cycle::close_balance() {
     b.extw += jumps;
     waiting_work_ = external - jumps;
   } else {
-    b.extw += external + waiting_work_ + switched + (stops_ ? stops_->settle(state_) : walls_.stop_work(state_));
+    const double caught = caught_ ? caught_->settle(state_) : 0.0;
+    b.extw += external + waiting_work_ + switched + (stops_ ? stops_->settle(state_) : walls_.stop_work(state_) + caught);
     waiting_work_ = 0.0;
   }
   const double constraint_work = external + bodies_.ledger_work(state_);

@@ -155,6 +155,7 @@ class Cycle {
   double removed_energy_ = 0.0;                 // held by deleted elements that their groups no longer count
   std::vector<Vec3> edited_v_, edited_w_;       // #N, empty: nothing was changed
   std::optional<constraints::StopWork> stops_;  // of all nodes, in a cycle that takes over changes
+  std::optional<constraints::StopWork> caught_;  // of nodes whose conditions contact lifts and gives back
   double start_work_ = 0.0;                     // of gradual starts, a part of the external work
   double edited_work_ = 0.0;                    // energy that the caller's changes brought in this cycle
   double waiting_work_ = 0.0;                   // of cycle 0, for the external work of the next one

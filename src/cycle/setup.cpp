@@ -62,6 +62,9 @@ Cycle::Cycle(const model::Model& model, const RunOptions& options)
   std::vector<std::uint8_t> free_translation(n, 1);
   std::vector<std::uint8_t> free_rotation(n, 1);
   for (const model::Interface& i : model.interfaces) releases_ = releases_ || (options.interfaces && (i.ibc[0] || i.ibc[1] || i.ibc[2]));
+  if (releases_ && !options.profile.reference_contact) {
+    caught_.emplace(std::vector<Index>(boundary_.nodes().begin(), boundary_.nodes().end()));
+  }
   for (std::size_t i = 0; i < n; ++i) {
     const auto node = static_cast<Index>(i);
     // A boundary condition that contact may lift leaves the node free.
