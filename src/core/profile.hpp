@@ -18,6 +18,8 @@ struct Profile {
   /// Quadratic hourglass viscosity of the one-point brick: on the size of a mode's rate, which does not know the axes; or on each
   /// component of its own, which does.
   enum class HourglassViscosity { objective, components };
+  /// Bricks of Isolid 1: all four hourglass modes leave out linear fields, or only the first three: the fourth then brakes rotations.
+  enum class HourglassModes { orthogonal, three };
   /// Energy increment of hourglass forces: trapezoidal, or with the end-of-step force.
   enum class HourglassEnergy { trapezoidal, end_of_step };
   /// Internal energy of bricks of small strain: the work of their forces, on the volume of cycle 0; or on the mean volume of the step.
@@ -64,6 +66,7 @@ struct Profile {
   ExternalWork external_work = ExternalWork::discrete;
   RotationalHourglass rotational_hourglass = RotationalHourglass::homogeneous;
   HourglassViscosity hourglass_viscosity = HourglassViscosity::objective;
+  HourglassModes hourglass_modes = HourglassModes::orthogonal;
   HourglassEnergy hourglass_energy = HourglassEnergy::trapezoidal;
   SmallStrainEnergy small_strain_energy = SmallStrainEnergy::work;
   ShellRotation shell_rotation = ShellRotation::exact;
@@ -87,6 +90,7 @@ struct Profile {
     p.external_work = ExternalWork::booked;
     p.rotational_hourglass = RotationalHourglass::reference;
     p.hourglass_viscosity = HourglassViscosity::components;
+    p.hourglass_modes = HourglassModes::three;
     p.hourglass_energy = HourglassEnergy::end_of_step;
     p.small_strain_energy = SmallStrainEnergy::mean_volume;
     p.shell_rotation = ShellRotation::reference;

@@ -74,7 +74,7 @@ class BrickGroup final : public SolidGroup {
     SolidGeometry g;
     g.volume = determinant(m) / 64.0;
     if (!config_.small_strain) return g;
-    Vec<double> rows[6] = {m.xi, m.eta, m.zeta, m.g1, m.g2, m.g3};
+    Vec<double> rows[7] = {m.xi, m.eta, m.zeta, m.g1, m.g2, m.g3, m.g4};
     if (config_.corotational) {
       const Matrix<double> frame = brick_frame(m.eta, m.zeta, m.xi);
       for (auto& r : rows) r = apply(frame, r);

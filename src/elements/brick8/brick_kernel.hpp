@@ -5,13 +5,13 @@
 //   hence we do not use the exact trilinear one), P_I = xi_I a + eta_I b + zeta_I c with (a, b, c) = (r_eta x r_zeta, ...)/det.
 //   D = at_midpoint() of L (the program, Profile::StrainIncrement: Iframe 2 sym L - h/2 L^T L, Iframe 1 sym L).
 //   L = v_xi a^T + v_eta b^T + v_zeta c^T with the same rows of v. f_I = V (sigma - q 1) P_I + sum_alpha gamma_I F_alpha.
-//   Gamma: products xi eta, eta zeta, zeta xi, -xi eta zeta. gamma = Gamma - P.X, X = sum_J Gamma_J x_J, for modes 1-3 of Isolid 1 (the
-//   mode 4 as it is); Isolid 2: gamma = Gamma. Rates qdot = gamma . v = Gamma . v - L X. F = qdot (c_l + c_q |qdot|), c_l =
-//   h/4 rho V^(2/3) c, c_q = 25 h c_l / c. Small strain (Ismstr 1): rows, X and face areas are those of cycle 0, in the frame of cycle 0.
-//   Iframe 2 lets the frame rotate with the element; with Iframe 1 they stay attached to the global axes, so that it is meant for small
-//   rotations only.
+//   Gamma: products xi eta, eta zeta, zeta xi, -xi eta zeta. gamma = Gamma - P.X, X = sum_J Gamma_J x_J, in Isolid 1 (the program and
+//   Profile::HourglassModes: mode 4 as it is); Isolid 2: gamma = Gamma. Rates qdot = gamma . v = Gamma . v - L X. F = qdot (c_l + c_q
+//   |qdot|), c_l = h/4 rho V^(2/3) c, c_q = 25 h c_l / c. Small strain (Ismstr 1): rows, X and face areas are those of cycle 0, in the
+//   frame of cycle 0. Iframe 2 lets the frame rotate with the element; with Iframe 1 they stay attached to the global axes, so that it is
+//   meant for small rotations only.
 // The eight nodal forces are combinations of seven vectors (three rows, four modes): both frames rotate only those.
-// Differs from [Flanagan Belytschko 1981]: V and P are those at the centre, mode 4 is not orthogonalised (numerics.md 4.1, 4.4).
+// Differs from [Flanagan Belytschko 1981]: V and P are those at the centre (numerics.md 4.1).
 #pragma once
 
 #include "elements/solid/solid_kernel.hpp"
@@ -46,7 +46,7 @@ ABUT_INLINE BrickModes<R> brick_modes(const At& at) {
 }
 
 /// Fields frozen in small strain.
-inline constexpr int brick_frozen_fields = 19;  // 3 rows, 3 X, largest |p x q|^2 of the faces
+inline constexpr int brick_frozen_fields = 22;  // 3 rows, 4 X, largest |p x q|^2 of the faces
 
 /// Largest |p x q|^2 = (2 A)^2 over the faces; p, q the diagonals (2.1.5).
 template <class R, class At>
@@ -151,6 +151,7 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
       m.g1 = apply(frame, m.g1);
       m.g2 = apply(frame, m.g2);
       m.g3 = apply(frame, m.g3);
+      m.g4 = apply(frame, m.g4);
     }
   }
   if (c.small_strain) {
@@ -161,8 +162,10 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     m.g1 = {state.get(f + 9), state.get(f + 10), state.get(f + 11)};
     m.g2 = {state.get(f + 12), state.get(f + 13), state.get(f + 14)};
     m.g3 = {state.get(f + 15), state.get(f + 16), state.get(f + 17)};
-    face = state.get(f + 18);
+    m.g4 = {state.get(f + 18), state.get(f + 19), state.get(f + 20)};
+    face = state.get(f + 21);
   }
+  if (!c.orthogonal_fourth) m.g4 = {zero, zero, zero};
   // ---- geometry. A collapsed or inactive element gets P = 0 and hence no force.
   const Vec<R> ca = cross(m.eta, m.zeta), cb = cross(m.zeta, m.xi), cc = cross(m.xi, m.eta);
   const R det = dot(m.xi, ca);
@@ -213,6 +216,7 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     w.g1 = w.g1 - apply(l, m.g1);
     w.g2 = w.g2 - apply(l, m.g2);
     w.g3 = w.g3 - apply(l, m.g3);
+    w.g4 = w.g4 - apply(l, m.g4);
   }
   const R cl = simd::select(sound, R(0.25 * c.hourglass * c.sound) * point.density * point.length * point.length, zero);
   const R cq = cl * R(25.0 * c.hourglass / c.sound);
@@ -255,7 +259,7 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     if (objective) fastest = simd::sqrt(fastest);
     const R viscosity = per_mass * (cl + R(2.0) * cq * fastest);
     t.hourglass = eight * viscosity;
-    if (c.orthogonal_hourglass) t.mixed = viscosity * (dot(m.g1, m.g1) + dot(m.g2, m.g2) + dot(m.g3, m.g3)) * g;
+    if (c.orthogonal_hourglass) t.mixed = viscosity * (dot(m.g1, m.g1) + dot(m.g2, m.g2) + dot(m.g3, m.g3) + dot(m.g4, m.g4)) * g;
     inverse_step = c.step_wanted || !(dt > 0.0) ? bound_inverse_step(t) : zero;
     stiffness = R(1.0 / 16.0) * mass * effective_eigenvalue(t, dt > 0.0 ? R(inv_dt) : inverse_step);
   }
@@ -269,9 +273,9 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
   const R vol = simd::select(acts, volume, zero);
   Matrix<R> t{{vol * s.xx, vol * s.xy, vol * s.zx}, {vol * s.xy, vol * s.yy, vol * s.yz}, {vol * s.zx, vol * s.yz, vol * s.zz}};
   if (c.orthogonal_hourglass) {
-    t.x = t.x - (f1.x * m.g1 + f2.x * m.g2 + f3.x * m.g3);
-    t.y = t.y - (f1.y * m.g1 + f2.y * m.g2 + f3.y * m.g3);
-    t.z = t.z - (f1.z * m.g1 + f2.z * m.g2 + f3.z * m.g3);
+    t.x = t.x - (f1.x * m.g1 + f2.x * m.g2 + f3.x * m.g3 + f4.x * m.g4);
+    t.y = t.y - (f1.y * m.g1 + f2.y * m.g2 + f3.y * m.g3 + f4.y * m.g4);
+    t.z = t.z - (f1.z * m.g1 + f2.z * m.g2 + f3.z * m.g3 + f4.z * m.g4);
   }
   Vec<R> q[7] = {apply(t, a), apply(t, b), apply(t, d), f1, f2, f3, f4};
   for (Vec<R>& f : q) {

@@ -92,6 +92,7 @@ SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel 
   config_.reference_step = in.profile.element_step == Profile::ElementStep::reference;
   config_.small_strain_work = in.profile.small_strain_energy == Profile::SmallStrainEnergy::work;
   config_.objective_hourglass = in.profile.hourglass_viscosity == Profile::HourglassViscosity::objective;
+  config_.orthogonal_fourth = in.profile.hourglass_modes == Profile::HourglassModes::orthogonal;
   config_.trapezoidal_hourglass = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;
   config_.midpoint_strain = !config_.small_strain && in.profile.strain_increment == Profile::StrainIncrement::midpoint;
   config_.literal_spin = in.profile.tetra_spin == Profile::TetraSpin::reference;

@@ -43,6 +43,7 @@ struct SolidConfig {
   double qa_squared = 0.0, qb = 0.0, hourglass = 0.0;
   bool corotational = false;         ///< Iframe 2 (bricks)
   bool orthogonal_hourglass = true;  ///< Isolid 1
+  bool orthogonal_fourth = true;     ///< Profile::HourglassModes, of Isolid 1
   bool small_strain = false;         ///< Ismstr 1
   bool reference_step = false;
   bool trapezoidal_hourglass = true;
