@@ -35,6 +35,9 @@ struct Profile {
   /// where there are none (N = 1); or Ishell 3 and 4 have rates that see v_z and forces on the rotations, if there are any, and 1 and 2 are
   /// flat.
   enum class WarpedShell { balanced, reference };
+  /// Stress that turns with the spin of its element (Iframe 1, TETRA4): by a rotation, which keeps its size, and the stress that a step
+  /// finds does its work turned to the axes at the end; or to first order, and its work in the axes it was found in.
+  enum class StressRotation { finite, first_order };
   /// Solid sound speed: sqrt((B + 4/3 G)/rho), or with the literal 1.333.
   enum class SolidSoundSpeed { exact, literal };
   /// Rigid bodies: exact rotation of secondary nodes, gyroscopic moment at mid-step (keeps energy and angular momentum),
@@ -72,6 +75,7 @@ struct Profile {
   ShellRotation shell_rotation = ShellRotation::exact;
   StrainIncrement strain_increment = StrainIncrement::midpoint;
   WarpedShell warped_shell = WarpedShell::balanced;
+  StressRotation stress_rotation = StressRotation::finite;
   SolidSoundSpeed solid_sound_speed = SolidSoundSpeed::exact;
   RigidBody rigid_body = RigidBody::conserving;
   TetraSpin tetra_spin = TetraSpin::exact;
@@ -96,6 +100,7 @@ struct Profile {
     p.shell_rotation = ShellRotation::reference;
     p.strain_increment = StrainIncrement::reference;
     p.warped_shell = WarpedShell::reference;
+    p.stress_rotation = StressRotation::first_order;
     p.solid_sound_speed = SolidSoundSpeed::literal;
     p.rigid_body = RigidBody::reference;
     p.tetra_spin = TetraSpin::reference;

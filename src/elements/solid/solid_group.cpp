@@ -95,6 +95,7 @@ SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel 
   config_.orthogonal_fourth = in.profile.hourglass_modes == Profile::HourglassModes::orthogonal;
   config_.trapezoidal_hourglass = in.profile.hourglass_energy == Profile::HourglassEnergy::trapezoidal;
   config_.midpoint_strain = !config_.small_strain && in.profile.strain_increment == Profile::StrainIncrement::midpoint;
+  config_.finite_rotation = in.profile.stress_rotation == Profile::StressRotation::finite;
   config_.literal_spin = in.profile.tetra_spin == Profile::TetraSpin::reference;
   reference_part_mass_ = config_.small_strain && config_.reference_step;
   nodal_part_sums_ = in.profile.part_sums == Profile::PartSums::nodal;

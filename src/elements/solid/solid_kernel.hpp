@@ -1,8 +1,10 @@
 // Pieces of a step that the one-point solids share: objective rate, law, viscosity, energy and stability limit.
 //
 // Equation contract (numerics.md)
-//   1.6.1  energy, trapezoidal; LAW1 works with s:D and p dV, LAW2 with sigma:D; the old stress enters before its rotation
-//   4.3.1  Jaumann, first order: sigma += W sigma - sigma W
+//   1.6.1  energy, trapezoidal; LAW1 works with s:D and p dV, LAW2 with sigma:D; the old stress enters turned to the axes of D (small
+//          strain: as it was, since its forces act on axes that do not turn; Profile::StressRotation: always as it was)
+//   4.3.1  sigma <- Q sigma Q^T, Q = (1 - W/2)^-1 (1 + W/2) [Hughes Winget 1980]; the program and StressRotation: to first order, Jaumann,
+//          sigma += W sigma - sigma W
 //   4.5    q = rho l <-tr D> (qa^2 l <-tr D> + qb c), l = V^(1/3)
 //   2.1.5  reference step: dt = dx/(Q + sqrt(Q^2 + c^2)), Q = qb c + qa^2 l <-tr D>
 // Bound step, exact for a parallelepiped of isotropic gradients, never above the element's limit
@@ -99,6 +101,31 @@ ABUT_INLINE Sym<R> jaumann(const Sym<R>& s, const Vec<R>& w) {
           s.zx + (w.y * (s.zz - s.xx) - w.z * s.yz + w.x * s.xy)};
 }
 
+/// Spin increment at mid-step from that of the velocity gradient on the geometry at the end, w, and the strain increment d over h: W + h/2
+/// (D W + W D), whose axial vector is w + h/2 (tr D w - D w).
+template <class R>
+ABUT_INLINE Vec<R> spin_at_midpoint(const Vec<R>& w, const Sym<R>& d, double dt) {
+  const R half(0.5 * dt);
+  return {w.x + half * ((d.yy + d.zz) * w.x - d.xy * w.y - d.zx * w.z), w.y + half * ((d.zz + d.xx) * w.y - d.yz * w.z - d.xy * w.x),
+          w.z + half * ((d.xx + d.yy) * w.z - d.zx * w.x - d.yz * w.y)};
+}
+
+/// Q s Q^T, Q = (1 - B)^-1 (1 + B) = 1 + 2/(1 + b.b) (B + B B), B a = b x a. b = w/2 (1 + w.w/4): a turn by an angle t has w = sin t, and
+/// b = tan(t/2) to fourth order.
+template <class R>
+ABUT_INLINE Sym<R> turned(const Sym<R>& s, const Vec<R>& w) {
+  const R one(1.0), u = R(0.25) * dot(w, w), half = R(0.5) + R(0.5) * u;
+  const Vec<R> b = half * w;
+  const R size = u * (one + u) * (one + u), c = R(2.0) / (one + size), rest = one - c * size;
+  const Vec<R> t = c * b;
+  const R xy = t.x * b.y, yz = t.y * b.z, zx = t.z * b.x;
+  const Vec<R> qx{rest + t.x * b.x, xy - t.z, zx + t.y}, qy{xy + t.z, rest + t.y * b.y, yz - t.x}, qz{zx - t.y, yz + t.x, rest + t.z * b.z};
+  const Vec<R> rows[3] = {{s.xx, s.xy, s.zx}, {s.xy, s.yy, s.yz}, {s.zx, s.yz, s.zz}};
+  const Vec<R> mx{dot(qx, rows[0]), dot(qx, rows[1]), dot(qx, rows[2])}, my{dot(qy, rows[0]), dot(qy, rows[1]), dot(qy, rows[2])};
+  const Vec<R> mz{dot(qz, rows[0]), dot(qz, rows[1]), dot(qz, rows[2])};
+  return {dot(mx, qx), dot(my, qy), dot(mz, qz), dot(mx, qy), dot(my, qz), dot(mz, qx)};
+}
+
 /// Memory of one register's worth of lanes inside a block.
 template <class R>
 struct Lanes {
@@ -176,8 +203,15 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
 
   // Deviator.
   const Sym<R> old{state.get(f_sxx), state.get(f_syy), state.get(f_szz), state.get(f_sxy), state.get(f_syz), state.get(f_szx)};
-  Sym<R> s = old;
-  if constexpr (!Corotational) s = jaumann(old, in.spin);
+  Sym<R> s = old, before = old;  // before: as it does its work
+  if constexpr (!Corotational) {
+    if (c.finite_rotation) {
+      s = turned(old, c.midpoint_strain ? spin_at_midpoint(in.spin, in.d, dt) : in.spin);
+      if (!c.small_strain) before = s;
+    } else {
+      s = jaumann(old, in.spin);
+    }
+  }
   const Sym<R> dev = materials::deviator(in.d);
   materials::add_elastic(s, dev, R(2.0 * c.shear * dt));
   if (c.law == 2) {
@@ -208,7 +242,7 @@ ABUT_INLINE PointResult<R> update_point(const SolidConfig& c, double dt, double 
   state.put(f_viscosity, out.viscosity);
 
   // Internal energy.
-  const R deviatoric = materials::contract(old + s, in.d);
+  const R deviatoric = materials::contract(before + s, in.d);
   R power, pressures = old_viscosity + out.viscosity;
   if (c.law == 2) {
     power = deviatoric - (old_pressure + out.pressure) * rate;

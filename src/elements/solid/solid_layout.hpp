@@ -50,6 +50,7 @@ struct SolidConfig {
   bool small_strain_work = true;    ///< internal energy on the frozen volume, as the forces are
   bool objective_hourglass = true;  ///< quadratic viscosity on the size of a mode's rate, not on its components
   bool midpoint_strain = true;      ///< Profile::StrainIncrement; not with small strain
+  bool finite_rotation = true;      ///< Profile::StressRotation
   bool literal_spin = false;        ///< TETRA4: spin with the reference's second-order terms
   double step_scale = 0.9, step_minimum = 0.0;
   bool remove_small_step = false;

@@ -70,6 +70,7 @@ TEST(BrickLaw2, IncrementIsTheDocumentedOne) {
   SolidSetup s = without_viscosity();
   s.law = plastic(0.3, 0.5, 0.4);
   s.profile.strain_increment = Profile::StrainIncrement::reference;  // h sym L
+  s.profile.stress_rotation = Profile::StressRotation::first_order;
   SolidBody body(unit_cube(), one, s);
   const auto field = [](const Vec3& x) { return Vec3{0, 0.002 * x.z, 0.0}; };
   body.set_velocity(field);
