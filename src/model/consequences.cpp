@@ -66,6 +66,7 @@ class Filter {
       empty_set_ = empty_set_ || set_is_empty;
       if (!among(d.code, derived)) {
         upstream_ = upstream_ || among(word, upstream);
+        misplaced_ = misplaced_ || word == "NODE";
         blocks_.insert(d.place.keyword);
       }
       if (among(d.code, unreadable_id)) unreadable_.insert(word);
@@ -109,6 +110,7 @@ class Filter {
     if (among(d.code, derived) && (upstream_ || blocks_.contains(p.keyword))) return false;
     if (!error && empty_set_ && among(d.code, derived)) return false;
     if (!error && upstream_ && d.code == "model.missing_output") return false;
+    if (misplaced_ && d.code == "model.inverted_brick") return false;
     if (error && among(d.code, of_a_set) && !messages_.insert(d.code + std::string(up_to_surface(d.message))).second) return false;
     if (d.code == "model.unknown_member" && empty_set_) {
       return std::none_of(all_.begin(), all_.end(), [&](const Diagnostic& e) { return reason(e) == &d; });
@@ -118,6 +120,7 @@ class Filter {
 
   const std::vector<Diagnostic>& all_;
   bool upstream_ = false, empty_set_ = false;
+  bool misplaced_ = false;                                       ///< a node may not be where the deck means it
   bool incomplete_ = false;                                      ///< text is missing: what was not found may stand there
   std::map<std::pair<std::string, std::string>, int> indented_;  ///< file and block of an indented keyword, and its line
   std::set<std::pair<std::string, int>> lines_;

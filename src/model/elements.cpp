@@ -179,11 +179,14 @@ class ElementReader {
           fmt::format("{} elements with negative volume were turned inside out, the first is {}", turned_.count, turned_.first));
     }
     if (concave_.count > 0) {
+      const bool shells = family == Family::shell;
       c_.diagnostics->warning(
-          "model.concave_shell", r.place(),
-          fmt::format("{} shells have a corner beyond 180 degrees, the first is {}: no quadrilateral element is right there, "
-                      "make two triangles of each",
-                      concave_.count, concave_.first));
+          shells ? "model.concave_shell" : "model.concave_brick", r.place(),
+          shells ? fmt::format("{} shells have a corner beyond 180 degrees, the first is {}: no quadrilateral element is right there, "
+                               "make two triangles of each",
+                               concave_.count, concave_.first)
+                 : fmt::format("{} bricks have a corner that is turned inside out, the first is {}: no brick is right there, mesh it anew",
+                               concave_.count, concave_.first));
     }
   }
 
@@ -292,22 +295,41 @@ class ElementReader {
       bricks_.add(id, part, {t[0], t[0], t[1], t[1], t[3], t[2], t[2], t[3]}, 0.0, b, card);
       return;
     }
-    const auto volume = [&] {
+    const auto corners = [&] {
       std::array<Vec3, 8> p;
       std::transform(n.begin(), n.end(), p.begin(), [this](Index k) { return x(k); });
-      return one_point_volume(p);
+      return p;
     };
     if (given == 6) n = {nodes[0], nodes[1], nodes[2], nodes[0], nodes[3], nodes[4], nodes[5], nodes[3]};
-    const int s = sign(volume(), n);
+    const int s = sign(one_point_volume(corners()), n);
     if (s == 0) {
       report_zero_volume(r, id);
       return;
     }
-    if (s < 0) {  // bottom and top change places; for a pentahedron this is the exchange of its two triangles
-      std::swap_ranges(n.begin(), n.begin() + 4, n.begin() + 4);
-      turned_.add(id);
-    }
+    // Bottom and top change places; for a pentahedron this is the exchange of its two triangles.
+    if (s < 0) std::swap_ranges(n.begin(), n.begin() + 4, n.begin() + 4);
+    if (given == 8 && !check_corners(r, id, n, corners())) return;
+    if (s < 0) turned_.add(id);
     bricks_.add(id, part, n, 0.0, b, card);
+  }
+
+  /// Reports a brick of eight nodes that folds through itself: sides of a face cross, or a node lies beyond those opposite to it, which
+  /// turns its corner and those of its neighbours inside out. One or two such corners alone are what a corner beyond 180 degrees is to a
+  /// shell.
+  bool check_corners(BlockReader& r, Id id, std::array<Index, 8> n, const std::array<Vec3, 8>& p) {
+    const int inverted = inverted_corners(p);
+    if (inverted == 0) return true;
+    std::sort(n.begin(), n.end());
+    if (std::adjacent_find(n.begin(), n.end()) != n.end()) return true;  // a collapsed form
+    if (inverted < 3 && !has_crossed_face(p)) {
+      concave_.add(id);
+      return true;
+    }
+    r.error("model.inverted_brick", {11, 90}, "n1-n8",
+            fmt::format("brick {} folds through itself ({} of its corners are inside out): list the nodes of one face one after the other "
+                        "around its border, then those of the opposite face in the same order, and look where its nodes lie",
+                        id, inverted));
+    return false;
   }
 
   Context& c_;

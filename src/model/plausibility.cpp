@@ -1,5 +1,5 @@
 // What a deck may say, but rarely means: materials in other units than /BEGIN, walls on bodies beside their centre of gravity, nodes
-// that a rigid wall does not stop, bricks whose mass is not that of their shape.
+// that a rigid wall does not stop, bricks whose mass is not that of their shape, hourglass forces that brake rotations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -166,6 +166,42 @@ void masses_of_collapsed_bricks(Context& c) {
   }
 }
 
+/// Hourglass rates of Isolid 2 see a rigid rotation of a brick that is no parallelepiped (docs/theory/elements.md).
+constexpr double irregular = 0.01;  // of its longest row
+
+void braked_rotations(Context& c) {
+  const Model& m = *c.model;
+  static constexpr double corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                          {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  std::map<Index, std::vector<Id>> braked;  // by part
+  for (std::size_t e = 0; e < m.bricks.id.size(); ++e) {
+    const Part& part = m.parts[static_cast<std::size_t>(m.bricks.part[e])];
+    const auto* solid = std::get_if<SolidProperty>(&m.properties[static_cast<std::size_t>(part.property)].data);
+    if (solid == nullptr || solid->isolid != 2) continue;
+    Vec3 rows[3], modes[4];
+    for (std::size_t k = 0; k < 8; ++k) {
+      const Vec3& x = m.node_x[static_cast<std::size_t>(m.bricks.nodes[e][k])];
+      const auto& s = corner[k];
+      for (int i = 0; i < 3; ++i) rows[i] += s[i] * x;
+      for (int i = 0; i < 3; ++i) modes[i] += s[i] * s[(i + 1) % 3] * x;
+      modes[3] += s[0] * s[1] * s[2] * x;
+    }
+    const auto longest = [](const auto& of) {
+      double length = 0.0;
+      for (const Vec3& a : of) length = std::max(length, norm(a));
+      return length;
+    };
+    if (longest(modes) > irregular * longest(rows)) braked[m.bricks.part[e]].push_back(m.bricks.id[e]);
+  }
+  for (const auto& [part, ids] : braked) {
+    c.diagnostics->warning("model.braked_rotation", place_of(c, "PART", m.parts[static_cast<std::size_t>(part)].id),
+                           fmt::format("the hourglass forces of Isolid 2 brake every rotation of {} that {} no parallelepiped{}: {}; "
+                                       "Isolid 1 leaves rotations alone",
+                                       ids.size() == 1 ? "1 brick" : fmt::format("{} bricks", ids.size()), ids.size() == 1 ? "is" : "are",
+                                       ids.size() == 1 ? "" : "s", list(ids)));
+  }
+}
+
 /// 3-node shells have one kinematics, whatever Ismstr asks for.
 void small_strain_of_triangles(Context& c) {
   const Model& m = *c.model;
@@ -186,6 +222,7 @@ void check_plausibility(Context& context) {
   wall_beside_the_centre(context);
   walls_and_bodies(context);
   masses_of_collapsed_bricks(context);
+  braked_rotations(context);
   small_strain_of_triangles(context);
 }
 

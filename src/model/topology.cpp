@@ -69,6 +69,27 @@ double one_point_volume(const std::array<Vec3, 8>& x) {
   return dot(cross(a, b), c) / 64.0;
 }
 
+int inverted_corners(const std::array<Vec3, 8>& x) {
+  static constexpr std::size_t ends[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  constexpr double straight = 1e-6;
+  const double size = std::abs(one_point_volume(x));
+  int inverted = 0;
+  for (std::size_t k = 0; k < 8; ++k) {
+    if (dot(cross(x[ends[k][0]] - x[k], x[ends[k][1]] - x[k]), x[ends[k][2]] - x[k]) < -straight * size) ++inverted;
+  }
+  return inverted;
+}
+
+bool has_crossed_face(const std::array<Vec3, 8>& x) {
+  static constexpr std::size_t faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  return std::any_of(std::begin(faces), std::end(faces), [&x](const auto& f) {
+    const std::array<Vec3, 4> face{x[f[0]], x[f[1]], x[f[2]], x[f[3]]};
+    constexpr double flat = 1e-12;  // both halves of a crossed square are the same: no area is left
+    const double size = std::max(squared_norm(face[2] - face[0]), squared_norm(face[3] - face[1]));
+    return !(facet_area(face) > flat * size) || turned_corners(face) > 1;
+  });
+}
+
 Id element_id(const Model& model, const ElementRef& element) {
   const auto i = static_cast<std::size_t>(element.index);
   switch (element.kind) {

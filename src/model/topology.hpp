@@ -11,6 +11,10 @@ namespace abut::model {
 
 /// Signed volume of a hexahedron by one-point integration: 8 times the Jacobian at its centre.
 [[nodiscard]] double one_point_volume(const std::array<Vec3, 8>& x);
+/// How many corners of a hexahedron are turned inside out: their three edges have a negative volume.
+[[nodiscard]] int inverted_corners(const std::array<Vec3, 8>& x);
+/// Sides of one of its faces cross.
+[[nodiscard]] bool has_crossed_face(const std::array<Vec3, 8>& x);
 /// What a deck calls it; 0 of none.
 [[nodiscard]] Id element_id(const Model& model, const ElementRef& element);
 /// Exact volume of its trilinear shape.

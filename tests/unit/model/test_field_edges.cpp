@@ -61,7 +61,7 @@ TEST(FieldEdges, NumbersThatFillTheirFieldsMayTouch) {
     EXPECT_EQ(build_changed(keyword, line, text).messages(), Messages{}) << text;
   };
   no_message("/NODE", 16, "        16-1.5258789062500E-055.00000000000000E-012.10000000000000E+00");
-  no_message("/NODE", 16, "        16                 0.0-1.0000000000000E-01                 2.1");
+  no_message("/NODE", 13, "        13                 0.0-1.0000000000000E-01                 2.1");
   no_message("/NODE", 16, "16        0.00                1.00000000000000E+002.1                 ");
   no_message("/INIVEL/TRA/1", 2, "0         " + blanks(10) + "0         " + blanks(10) + "-10       " + blanks(10) + "2         0");
   no_message("/BCS/1", 2, "   111 1110         1         ");                                     // flags stand in fixed columns

@@ -128,6 +128,30 @@ TEST(Mesh, CrossedSidesAndCornersBeyondAStraightAngleAreSaid) {
                      "quadrilateral element is right there, make two triangles of each"}));
 }
 
+// A cube of which two nodes of a face change places, one node lies beyond the opposite one, or an edge is upside down; one that is only
+// indented is read, and said once; a wedge has corners without volume.
+TEST(Mesh, BricksThatFoldThroughThemselvesAreSaid) {
+  const std::string nodes = cube() + node(9, "-0.3", "-0.3", "-0.3") + node(10, "1", "1", "-0.5") + node(11, "0.3", "0.3", "1");
+  Reading folded;
+  folded.read(head() + nodes + "/BRICK/2\n" + ints({1, 1, 2, 4, 3, 5, 6, 7, 8}) + ints({2, 1, 2, 3, 4, 5, 6, 9, 8}) +
+              ints({3, 1, 2, 3, 4, 5, 6, 10, 8}) + ints({4, 6, 5, 8, 7, 2, 1, 3, 4}) + ints({5, 1, 2, 3, 4, 5, 6, 7, 8}));
+  const auto message = [](int line, int id, int corners) {
+    return "t_0000.rad:" + std::to_string(line) + ": /BRICK/2 field 'n1-n8' (columns 11-90): brick " + std::to_string(id) +
+           " folds through itself (" + std::to_string(corners) +
+           " of its corners are inside out): list the nodes of one face one after the other around its border, then those of the opposite "
+           "face in the same order, and look where its nodes lie";
+  };
+  EXPECT_EQ(folded.errors(), (Strings{message(38, 1, 2), message(39, 2, 4), message(40, 3, 2), message(41, 4, 2)}));
+  Reading indented;
+  indented.read(head() + nodes + "/BRICK/2\n" + ints({1, 1, 2, 3, 4, 5, 6, 11, 8}) + ints({2, 1, 2, 3, 4, 5, 6, 7, 8}) +
+                ints({3, 1, 2, 3, 3, 5, 6, 7, 7}) + ints({4, 5, 6, 7, 8, 1, 2, 3, 4}));
+  EXPECT_EQ(indented.errors(), Strings{});
+  EXPECT_EQ(indented.messages(Severity::warning)[1],
+            "t_0000.rad:37: warning: /BRICK/2: 1 bricks have a corner that is turned inside out, the first is 1: no brick is right there, "
+            "mesh it anew");
+  ASSERT_EQ(indented.messages(Severity::warning).size(), 2u);
+}
+
 TEST(Mesh, BadNodesSayWhatWouldBeRight) {
   Reading r;
   r.read(std::string(begin_2022) + "/NODE\n" + node(1, "1.2.3", "0", "0") + node(1, "0", "0", "0") + node(0, "0", "0", "0") +

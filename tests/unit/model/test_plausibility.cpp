@@ -50,28 +50,48 @@ TEST(Plausibility, FieldsThatDoNothing) {
   EXPECT_FALSE(triangle("2").has("Ismstr"));
 }
 
+/// A brick of steel: corners by their numbers in the unit cube, 9 its corner 7 moved along the face.
+auto brick_of(const std::vector<long>& corners, long isolid = 0) {
+  std::string deck = "/BEGIN\nbrick\n      2022         0\n" + millimetres + millimetres + "/NODE\n";
+  long id = 0;
+  for (const auto& [x, y, z] : std::vector<std::array<const char*, 3>>{{"0", "0", "0"},
+                                                                       {"1", "0", "0"},
+                                                                       {"1", "1", "0"},
+                                                                       {"0", "1", "0"},
+                                                                       {"0", "0", "1"},
+                                                                       {"1", "0", "1"},
+                                                                       {"1", "1", "1"},
+                                                                       {"0", "1", "1"},
+                                                                       {"1.1", "1", "1"}}) {
+    deck += testing::ints({++id}).substr(0, 10) + testing::reals({x, y, z});
+  }
+  deck += "/MAT/ELAST/3\nsteel\n" + testing::reals({"7.8e-9"}) + testing::reals({"2.1e5", "0.3"}) + "/PROP/SOLID/1\nsolid\n" +
+          testing::ints({isolid}) + "\n\n/PART/4\na\n" + testing::ints({1, 3}) + "/BRICK/4\n";
+  std::vector<long> card = corners;
+  card.insert(card.begin(), 9);
+  return build_text(deck + testing::ints(card) + "/END\n");
+}
+
+// A rotation is no hourglass motion: Isolid 2 sees one in what is no parallelepiped, Isolid 1 (and 0) does not.
+TEST(Plausibility, HourglassForcesOfIsolid2BrakeRotations) {
+  EXPECT_TRUE(brick_of({1, 2, 3, 4, 5, 6, 9, 8}, 2)
+                  .has("warning: /PART/4: the hourglass forces of Isolid 2 brake every rotation of 1 brick that is no parallelepiped: 9; "
+                       "Isolid 1 leaves rotations alone"));
+  for (const auto& quiet : {brick_of({1, 2, 3, 4, 5, 6, 9, 8}), brick_of({1, 2, 3, 4, 5, 6, 9, 8}, 1),
+                            brick_of({1, 2, 3, 4, 5, 6, 7, 8}, 2), brick_of({2, 3, 7, 6, 1, 4, 8, 5}, 2)}) {
+    EXPECT_FALSE(quiet.has("brake"));
+  }
+}
+
 // One-point volumes: of a box and a prism exact, of a pyramid and a tetrahedron 1/4 and 1/8 of a box instead of 1/3 and 1/6.
 TEST(Plausibility, CollapsedBricksWithAnotherMassThanTheirShape) {
-  const auto brick = [](const std::vector<long>& corners) {
-    std::string deck = "/BEGIN\nbrick\n      2022         0\n" + millimetres + millimetres + "/NODE\n";
-    long id = 0;
-    for (const char* xyz : {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"}) {
-      const std::string all(xyz);
-      deck += testing::ints({++id}).substr(0, 10) + testing::reals({all.substr(0, 1), all.substr(2, 1), all.substr(4)});
-    }
-    deck += "/MAT/ELAST/3\nsteel\n" + testing::reals({"7.8e-9"}) + testing::reals({"2.1e5", "0.3"}) +
-            "/PROP/SOLID/1\nsolid\n\n\n\n/PART/4\na\n" + testing::ints({1, 3}) + "/BRICK/4\n";
-    std::vector<long> card = corners;
-    card.insert(card.begin(), 9);
-    return build_text(deck + testing::ints(card) + "/END\n");
-  };
-  EXPECT_FALSE(brick({1, 2, 3, 4, 5, 6, 7, 8}).has("the mass of"));
-  EXPECT_FALSE(brick({1, 2, 3, 3, 5, 6, 7, 7}).has("the mass of"));
+  EXPECT_FALSE(brick_of({1, 2, 3, 4, 5, 6, 7, 8}).has("the mass of"));
+  EXPECT_FALSE(brick_of({1, 2, 3, 3, 5, 6, 7, 7}).has("the mass of"));
   EXPECT_TRUE(
-      brick({1, 2, 3, 4, 5, 5, 5, 5})
+      brick_of({1, 2, 3, 4, 5, 5, 5, 5})
           .has("warning: /PART/4: the mass of 1 brick is that of the volume at the centre and differs by more than 5 % from that of "
                "the shape: 9 (element 9 by -25 %)"));
-  EXPECT_TRUE(brick({1, 2, 3, 3, 5, 5, 5, 5}).has("(element 9 by -25 %)"));
+  EXPECT_TRUE(brick_of({1, 2, 3, 3, 5, 5, 5, 5}).has("(element 9 by -25 %)"));
 }
 
 TEST(Plausibility, NodesOfARigidBodyPassAWall) {
