@@ -186,6 +186,13 @@ const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
              "whether the result depends on it",
              100.0 * std::abs(error), error > 0.0 ? "made" : "lost"));
   }
+  constexpr double much_hourglass = 0.1;
+  if (const Balance& b = cycle->balance(); kind != Outcome::Kind::failed && b.he > much_hourglass * b.largest) {
+    tell("run.hourglass_energy",
+         fmt::format("at the end {:.3g} % of the largest energy has gone into hourglass modes (HE), more than {:g} %: motions of the mesh, "
+                     "not of the body; a finer or more regular mesh or another formulation shows whether the result depends on them",
+                     100.0 * b.he / b.largest, 100.0 * much_hourglass));
+  }
   for (std::size_t k = 0; k < call_logs_.size(); ++k) {
     if (call_logs_[k].tellp() != 0) continue;
     const ContactRecording& r = settings.recordings[k];
