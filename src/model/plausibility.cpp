@@ -215,6 +215,27 @@ void small_strain_of_triangles(Context& c) {
   }
 }
 
+/// Plastic shells have no global integration: N = 0 becomes 3 points (elements/shell_common/setup.cpp).
+void points_of_plastic_shells(Context& c) {
+  const Model& m = *c.model;
+  std::set<Index> parts, properties;
+  parts.insert(m.shells.part.begin(), m.shells.part.end());
+  parts.insert(m.sh3ns.part.begin(), m.sh3ns.part.end());
+  for (const Index p : parts) {
+    const Part& part = m.parts[static_cast<std::size_t>(p)];
+    if (part.property == no_index || part.material == no_index) continue;
+    if (std::holds_alternative<LawJohnsonCook>(m.materials[static_cast<std::size_t>(part.material)].law)) properties.insert(part.property);
+  }
+  for (const Index p : properties) {
+    const Property& property = m.properties[static_cast<std::size_t>(p)];
+    const auto* shell = std::get_if<ShellProperty>(&property.data);
+    if (shell == nullptr || shell->points != 0) continue;
+    c.diagnostics->warning("model.shell_points", place_of(c, "PROP", property.id),
+                           "N is blank or 0, and LAW2 knows no global integration: 3 points are used. Their limit moment is that of first "
+                           "yield, Y t^2/6, a third below Y t^2/4; 5 points have 8 % less, 9 points 2 %. Set N");
+  }
+}
+
 }  // namespace
 
 void check_plausibility(Context& context) {
@@ -224,6 +245,7 @@ void check_plausibility(Context& context) {
   masses_of_collapsed_bricks(context);
   braked_rotations(context);
   small_strain_of_triangles(context);
+  points_of_plastic_shells(context);
 }
 
 }  // namespace abut::model

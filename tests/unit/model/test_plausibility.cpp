@@ -83,6 +83,21 @@ TEST(Plausibility, HourglassForcesOfIsolid2BrakeRotations) {
   }
 }
 
+// LAW2 has no global integration; 3 points have the limit moment of first yield.
+TEST(Plausibility, PointsOfPlasticShells) {
+  const auto yielding = [](const std::string& points) {
+    const std::string law = testing::reals({"2.1e11", "0.3"}) + testing::reals({"3e8"}) + "\n";
+    const std::string deck = with_line(plate(si, "2.1e11", ""), "/MAT/ELAST/3", 3, law);
+    return build_text(with_line(with_line(deck, "/MAT/ELAST/3", 0, "/MAT/PLAS_JOHNS/3"), "/PROP/SHELL/1", 4,
+                                testing::field(points, 10) + "         0                 .01"));
+  };
+  for (const char* none : {"0", ""}) {
+    EXPECT_TRUE(yielding(none).has("warning: /PROP/SHELL/1: N is blank or 0, and LAW2 knows no global integration: 3 points are used."));
+  }
+  EXPECT_FALSE(yielding("3").has("N is"));
+  EXPECT_FALSE(build_text(plate(si, "2.1e11", "")).has("N is"));  // LAW1 integrates in closed form
+}
+
 // One-point volumes: of a box and a prism exact, of a pyramid and a tetrahedron 1/4 and 1/8 of a box instead of 1/3 and 1/6.
 TEST(Plausibility, CollapsedBricksWithAnotherMassThanTheirShape) {
   EXPECT_FALSE(brick_of({1, 2, 3, 4, 5, 6, 7, 8}).has("the mass of"));
