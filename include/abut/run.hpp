@@ -136,12 +136,15 @@ class Run {
   /// Lengths at time(). Positions cannot be changed: stresses and the anchors of friction are sums over the way that nodes have gone,
   /// and a jump has no work that the balance could book. A position is reached by a velocity.
   [[nodiscard]] std::span<const Vec3> positions() const;
-  [[nodiscard]] std::span<const Vec3> displacements() const;       ///< positions() less Model::coordinates()
+  /// Since the start of the run: positions() less Model::coordinates(), but for nodes that the start itself moves (main nodes of rigid
+  /// bodies, `initial=project`).
+  [[nodiscard]] std::span<const Vec3> displacements() const;
   [[nodiscard]] std::span<const Vec3> velocities() const;          ///< at time() - step()/2, or as edited
   [[nodiscard]] std::span<const Vec3> angular_velocities() const;  ///< radians/time; empty in models without rotations
   [[nodiscard]] std::span<const Vec3> accelerations() const;       ///< at force_time()
   [[nodiscard]] std::span<const Vec3> contact_forces() const;      ///< at force_time(), sum of all interfaces
-  [[nodiscard]] std::span<const double> masses() const;            ///< added ones included
+  /// Added ones included. The main node of a rigid body has the mass of the body, and its other nodes keep theirs.
+  [[nodiscard]] std::span<const double> masses() const;
   /// The velocities, to be changed before the next cycle. The energy that a change brings is booked as external work, so the
   /// balance stays closed. Nodes whose motion is imposed, and secondary nodes of rigid bodies, take no notice.
   [[nodiscard]] std::span<Vec3> edit_velocities();

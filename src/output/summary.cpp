@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -117,7 +118,9 @@ void print_conditions(std::string& out, const model::Model& model) {
   add(model.concentrated_loads.size(), "concentrated loads");
   add(model.pressure_loads.size(), "pressure loads");
   add(model.gravities.size(), "gravity loads");
-  add(model.added_masses.size(), "added masses");
+  std::set<Index> heavier;
+  for (const model::AddedMass& a : model.added_masses) heavier.insert(a.node);
+  add(heavier.size(), "nodes with added mass");
   add(model.rigid_bodies.size(), "rigid bodies");
   add(model.rigid_walls.size(), "rigid walls");
   add(model.sections.size(), "sections");

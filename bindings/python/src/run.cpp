@@ -148,10 +148,16 @@ void bind_state(RunClass& run) {
             "(N, 3) lengths at `time`; a read-only view.\n\n"
             "Between cycles velocities can be changed, positions cannot: stresses and the anchors of friction are sums over the way that\n"
             "nodes have gone, and a jump has no work that the balance could book. A position is reached by a velocity.");
-  points_of("displacements", &Run::displacements, "(N, 3) lengths, positions less Model.coordinates; a read-only view");
+  points_of("displacements", &Run::displacements,
+            "(N, 3) lengths that nodes have moved since the start of the run; a read-only view.\n\n"
+            "They are positions less Model.coordinates, but for nodes that the start itself moves: the main node of a rigid body to its\n"
+            "centre of mass, and what initial=project brings out of the other surface.");
   points_of("accelerations", &Run::accelerations, "(N, 3) length/time^2 at `force_time`; a read-only view");
   points_of("contact_forces", &Run::contact_forces, "(N, 3) forces, the sum of all interfaces, at `force_time`; a read-only view");
-  points_of("masses", &Run::masses, "(N,) masses, added ones included; a read-only view");
+  points_of("masses", &Run::masses,
+            "(N,) masses, added ones included; a read-only view.\n\n"
+            "The main node of a rigid body has the mass of the body, and its other nodes keep theirs: their sum counts bodies twice,\n"
+            "balance.mass once.");
   run.def_property("velocities", &velocities, &set_velocities,
                    "(N, 3) length/time, half a step before `time`; read-only, assign to change all of them, or use edit().\n\n"
                    "The energy that a change brings is booked as external work. Nodes whose motion is imposed, and secondary nodes of\n"

@@ -75,7 +75,8 @@ TEST_F(ListingTest, TheHeaderSaysWhatRunsAndWhatIsLeftOut) {
 
 TEST_F(ListingTest, TheSummaryCountsAndWeighsTheModel) {
   const std::vector<double> masses = part_masses(scene_.model, scene_.groups);
-  EXPECT_EQ(masses, (std::vector<double>{8.0, 19.0}));  // fake masses 4 + index: shells 4 + 4, solids 4 + 5 + 6 + 4
+  EXPECT_EQ(masses, (std::vector<double>{8.0, 19.0}));         // fake masses 4 + index: shells 4 + 4, solids 4 + 5 + 6 + 4
+  scene_.model.added_masses = {{2, 0.1}, {2, 0.2}, {5, 0.1}};  // a card of the deck makes one entry per node, element and corner
   const std::string text = model_summary(scene_.model, masses);
   EXPECT_TRUE(has(text, "Model       scene \"one of each\"\n"));
   EXPECT_TRUE(has(text, "Units       kg m s\n"));
@@ -86,8 +87,9 @@ TEST_F(ListingTest, TheSummaryCountsAndWeighsTheModel) {
   EXPECT_TRUE(has(text, "mass of all elements 27\n"));
   EXPECT_TRUE(has(text, "3  TYPE3 \"a with b\": nothing and nothing\n"));
   EXPECT_TRUE(has(text, "7  TYPE5: 0 nodes against nothing\n"));
-  EXPECT_TRUE(has(text, "Conditions  1 rigid bodies, 1 rigid walls, 1 sections\n"));
-  EXPECT_FALSE(has(model_summary(scene_.model, {}), "mass"));
+  EXPECT_TRUE(has(text, "Conditions  2 nodes with added mass, 1 rigid bodies, 1 rigid walls, 1 sections\n"));
+  EXPECT_FALSE(has(model_summary(scene_.model, {}), "elements  mass"));
+  EXPECT_FALSE(has(model_summary(scene_.model, {}), "mass of all"));
 }
 
 TEST_F(ListingTest, ALinePerListedCycleWithTheValuesOfThatCycle) {
