@@ -51,7 +51,7 @@ void Cycle::advance(Sink& sink) {
     gravities_.apply(state_);  // 17
     booked_work_ += gravities_.book_work(state_);
     if (caught_) caught_->before(state_);
-    boundary_.apply(state_);            // 18
+    boundary_.apply(state_);  // 18
     if (caught_) caught_->after(state_);
     imposed_.apply(state_, boundary_);  // 20
     bodies_.hold(state_, boundary_, imposed_);

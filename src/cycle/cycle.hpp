@@ -152,15 +152,15 @@ class Cycle {
   bool eroded_ = false;
   std::optional<init::FaceOwners> face_owners_;  // once an element of a model with pressures is gone
   double scaled_energy_ = 0.0;
-  double removed_energy_ = 0.0;                 // held by deleted elements that their groups no longer count
-  std::vector<Vec3> edited_v_, edited_w_;       // #N, empty: nothing was changed
-  std::optional<constraints::StopWork> stops_;  // of all nodes, in a cycle that takes over changes
+  double removed_energy_ = 0.0;                  // held by deleted elements that their groups no longer count
+  std::vector<Vec3> edited_v_, edited_w_;        // #N, empty: nothing was changed
+  std::optional<constraints::StopWork> stops_;   // of all nodes, in a cycle that takes over changes
   std::optional<constraints::StopWork> caught_;  // of nodes whose conditions contact lifts and gives back
-  double start_work_ = 0.0;                     // of gradual starts, a part of the external work
-  double edited_work_ = 0.0;                    // energy that the caller's changes brought in this cycle
-  double waiting_work_ = 0.0;                   // of cycle 0, for the external work of the next one
-  double booked_work_ = 0.0;                    // external work of this cycle as the reference program books it
-  int beyond_limit_ = 0;                        // cycles in a row with an energy error beyond the limit
+  double start_work_ = 0.0;                      // of gradual starts, a part of the external work
+  double edited_work_ = 0.0;                     // energy that the caller's changes brought in this cycle
+  double waiting_work_ = 0.0;                    // of cycle 0, for the external work of the next one
+  double booked_work_ = 0.0;                     // external work of this cycle as the reference program books it
+  int beyond_limit_ = 0;                         // cycles in a row with an energy error beyond the limit
   double worst_error_ = 0.0, worst_contact_error_ = 0.0;
   std::vector<PartResult> parts_;
   std::vector<InterfaceResult> interface_results_;

@@ -212,7 +212,8 @@ TEST(EffectiveMass, ConditionsThatComeBackAreExternalWork) {
         work = std::max(work, std::abs(sample.balance.extw) / sample.balance.largest);
       }
     }
-    std::printf("[found] conditions that come back, TYPE%d: |ERR| %.3f %% at most, EXTW up to %.2g of the energy\n", type, 100 * worst, work);
+    std::printf("[found] conditions that come back, TYPE%d: |ERR| %.3f %% at most, EXTW up to %.2g of the energy\n", type, 100 * worst,
+                work);
     EXPECT_GT(work, 0.01);
     EXPECT_LT(worst, 0.01) << type;
   }
