@@ -6,20 +6,33 @@
 namespace abut::contact {
 namespace {
 
-// dH/dxi of the free directions: two on a face, one along an edge, none at a corner; in (s, t).
+// The free directions: two on a face, one along an edge, none at a corner; in (s, t), with dH/dxi and X_a along them.
 struct Directions {
-  int count = 0;
+  std::size_t count = 0;
   std::array<std::array<double, 2>, 2> d{};
+  std::array<std::array<double, 4>, 2> dh{};
+  std::array<Vec3, 2> tangent{};
 };
 
-Directions free_directions(const ClosestPoint& c, bool triangle) {
-  if (c.feature == Feature::corner) return {};
-  if (c.feature == Feature::face) return {2, {{{1.0, 0.0}, {0.0, 1.0}}}};
-  if (triangle) {
-    constexpr std::array<std::array<double, 2>, 3> along{{{1.0, 0.0}, {-1.0, 1.0}, {0.0, 1.0}}};
-    return {1, {along[c.number], {}}};
+Directions free_directions(const Patch& patch, const ClosestPoint& c) {
+  Directions free;
+  if (c.feature == Feature::corner) return free;
+  if (c.feature == Feature::face) {
+    free.count = 2;
+    free.d = {{{1.0, 0.0}, {0.0, 1.0}}};
+  } else {
+    constexpr std::array<std::array<double, 2>, 3> of_triangle{{{1.0, 0.0}, {-1.0, 1.0}, {0.0, 1.0}}};
+    free.count = 1;
+    free.d[0] = patch.triangle ? of_triangle[c.number] : std::array{c.number % 2 == 0 ? 1.0 : 0.0, c.number % 2 == 0 ? 0.0 : 1.0};
   }
-  return {1, {{{c.number % 2 == 0 ? 1.0 : 0.0, c.number % 2 == 0 ? 0.0 : 1.0}, {}}}};
+  const auto gradient = shape_gradient(patch.triangle, c.s, c.t);
+  for (std::size_t a = 0; a < free.count; ++a) {
+    for (std::size_t i = 0; i < (patch.triangle ? 3U : 4U); ++i) {
+      free.dh[a][i] = free.d[a][0] * gradient[0][i] + free.d[a][1] * gradient[1][i];
+      free.tangent[a] += free.dh[a][i] * patch.x[i];
+    }
+  }
+  return free;
 }
 
 // How much wider strips are, in lengths of the facet, at x = depth over its length: x, but with a slope that starts and ends without a jump
@@ -39,7 +52,7 @@ Wider wider_at(double x) {
 
 /// Distance across the facet from a border that a node is near to the other side; of triangles the least height.
 /// @param s, t  the taper changes along the first, the second direction
-double across(bool triangle, int directions, const std::array<Vec3, 2>& tangent, bool s, bool t) {
+double across(bool triangle, std::size_t directions, const std::array<Vec3, 2>& tangent, bool s, bool t) {
   const double first = norm(tangent[0]), second = norm(tangent[1]);
   if (directions == 1) return triangle ? first : 2.0 * first;
   const double area = norm(cross(tangent[0], tangent[1]));
@@ -102,18 +115,15 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
   result.potential = result.stiffness * phi;
   result.on_node = result.magnitude * m.normal;
 
-  const auto gradient = shape_gradient(patch.triangle, c.s, c.t);
-  const Directions free = free_directions(c, patch.triangle);
+  const Directions free = free_directions(patch, c);
+  const auto& dh = free.dh;
+  const auto& tangent = free.tangent;
   std::array<double, 2> push{};  // dPsi/dxi at fixed distance
-  std::array<Vec3, 2> tangent{};
-  std::array<std::array<double, 4>, 2> dh{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(free.count); ++a) {
+  for (std::size_t a = 0; a < free.count; ++a) {
     double dk1 = 0.0, dgap = 0.0;
     for (std::size_t i = 0; i < corners; ++i) {
-      dh[a][i] = free.d[a][0] * gradient[0][i] + free.d[a][1] * gradient[1][i];
       dk1 += dh[a][i] * surface.corner_stiffness(corner[i]);
       if (gap_follows) dgap += 0.5 * dh[a][i] * surface.node_thickness(corner[i]);
-      tangent[a] += dh[a][i] * patch.x[i];
     }
     push[a] = phi * (t.value * slope * dk1 + pair * (free.d[a][0] * t.ds + free.d[a][1] * t.dt));
     if (dgap != 0.0) push[a] += result.stiffness * (own.grows * law.force(p) + law.gap_slope(p)) * dgap;
@@ -158,18 +168,11 @@ PairForce pair_force(const Side& surface, const Measure& m, const Vec3& x, const
 
 FrictionCouple friction_couple(const Patch& patch, const ClosestPoint& c, const Vec3& x, const Vec3& on_surface) {
   FrictionCouple result;
-  const Directions free = free_directions(c, patch.triangle);
+  const Directions free = free_directions(patch, c);
   if (free.count == 0) return result;
   const std::size_t corners = patch.triangle ? 3 : 4;
-  const auto gradient = shape_gradient(patch.triangle, c.s, c.t);
-  std::array<Vec3, 2> tangent{};
-  std::array<std::array<double, 4>, 2> dh{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(free.count); ++a) {
-    for (std::size_t i = 0; i < corners; ++i) {
-      dh[a][i] = free.d[a][0] * gradient[0][i] + free.d[a][1] * gradient[1][i];
-      tangent[a] += dh[a][i] * patch.x[i];
-    }
-  }
+  const auto& dh = free.dh;
+  const auto& tangent = free.tangent;
   // Of one direction: as if the other were a unit vector across.
   const bool two = free.count == 2;
   const double g11 = squared_norm(tangent[0]), g12 = dot(tangent[0], tangent[1]), g22 = two ? squared_norm(tangent[1]) : 1.0;
