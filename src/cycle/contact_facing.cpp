@@ -68,7 +68,8 @@ void ContactFacing::look(const state::State& state, std::span<InterfaceResult> r
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     Watched& w = interfaces_[i];
     if (w.limit == 0.0) continue;
-    if (w.looked && (state.times.cycle < w.cycle + cycles_between || state.times.t < w.time + time_between_)) continue;
+    const bool opens = state.times.reached(model_->interfaces[i].t_start);
+    if (w.looked && !opens && (state.times.cycle < w.cycle + cycles_between || state.times.t < w.time + time_between_)) continue;
     const bool decided = !std::isnan(results[i].facing[0]) || !std::isnan(results[i].facing[1]);
     w.cycle = state.times.cycle;
     w.time = state.times.t;

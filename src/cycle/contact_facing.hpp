@@ -15,8 +15,8 @@
 namespace abut::cycle {
 
 /// Looks at the surfaces of TYPE3 and TYPE5 again when a node of them has moved by a quarter of a facet since, or nothing is decided yet,
-/// at least `cycles_between` cycles and 1/`looks` of the run later: a look costs about as much as five cycles. What it says depends on
-/// positions, times and cycle numbers only.
+/// at least `cycles_between` cycles and 1/`looks` of the run later, and when an interface begins (Tstart): a look costs about as much as
+/// five cycles. What it says depends on positions, times and cycle numbers only.
 class ContactFacing {
  public:
   static constexpr std::int64_t cycles_between = 200;

@@ -117,7 +117,8 @@ void TimeStep::refuse_endless(const state::State& s, double step, const StepCont
   constexpr double most_cycles = 1e13;
   const model::Controls& control = model_.controls;
   const bool stands_still = !(s.times.t + step > s.times.t);
-  const bool chosen = step >= control.dt_initial && control.dt_initial > 0.0;  // a first step of the deck grows
+  // A first step of the deck grows, but not beyond the largest.
+  const bool chosen = step >= control.dt_initial && control.dt_initial > 0.0 && control.t_end <= most_cycles * control.dt_max;
   const bool endless = s.times.cycle == 0 && !chosen && control.t_end < 1e29 && control.t_end > most_cycles * step;
   const double collapsed = mean_of_collapse(s, step);
   if (!stands_still && !endless && collapsed <= 0.0) return;

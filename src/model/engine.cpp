@@ -281,6 +281,9 @@ class EngineReader {
     if (minimum == 0.0) {
       d.bad(0, "Tmin", "mass scaling needs the step that it shall keep: write a scale and a minimum step, e.g. 0.9 1e-6");
     }
+    if (k_.t_end > 0.0 && minimum > k_.t_end) {
+      d.bad(0, "Tmin", fmt::format("a minimum step of {} is longer than the whole run, which ends at {}", minimum, k_.t_end));
+    }
     if (d.real(2, "Mratio") != 0.0) {
       d.bad(0, "Mratio", "a limit of the added mass is not supported: write 0; /STOP with Mmax ends a run that adds too much");
     }

@@ -37,6 +37,8 @@ class ContactWatch final : public cycle::Sink {
   std::int64_t next_look_cycle_ = 0;  ///< no look before this cycle: a look costs about as much as some cycles
 
   void look(const cycle::Snapshot& now);
+  /// Energy of contact that exists at t = 0 which the first half step takes: m |h a/2|^2/2 of the nodes that it pushes.
+  void weigh_first_step(const cycle::Snapshot& now);
   /// Whom it concerns.
   struct Where {
     std::vector<Id> nodes;

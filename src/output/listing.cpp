@@ -16,7 +16,6 @@ namespace abut::output {
 namespace {
 
 constexpr int lines_per_header = 50;
-constexpr double large_mass_error = 0.05;  ///< share that the listing remarks on
 constexpr std::string_view columns =
     "\n     CYCLE          TIME     TIME-STEP  BY              ID   ERROR%    I-ENERGY  K-ENERGY-T  K-ENERGY-R  CONT-ENERGY  "
     "CONT-MADE    EXT-WORK    MASS-ERR\n";
@@ -108,9 +107,7 @@ void Listing::end(const cycle::Outcome& outcome) {
     if (f.diagnostic.code == ErosionWatch::deleted) text += fmt::format("Deleted     {}\n", f.diagnostic.message);
   }
   if (b.added_mass > 0.0) {
-    text +=
-        fmt::format("Added mass  {:.6g} by /DT/NODA/CST, {:.3g} % of the mass without it{}\n", b.added_mass, 100.0 * mass_error(b),
-                    mass_error(b) > large_mass_error ? ": much for a run in which inertia matters; a smaller minimum step adds less" : "");
+    text += fmt::format("Added mass  {:.6g} by /DT/NODA/CST, {:.3g} % of the mass without it\n", b.added_mass, 100.0 * mass_error(b));
   }
   if (!record_.hashes().empty()) {
     const RunRecord::Hash& last = record_.hashes().back();

@@ -14,6 +14,7 @@
 
 #include "output/progress.hpp"
 #include "output/run_outputs.hpp"
+#include "output/run_record.hpp"
 #include "simd/isa.hpp"
 
 #ifndef ABUT_VERSION
@@ -192,6 +193,13 @@ const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
          fmt::format("at the end {:.3g} % of the largest energy has gone into hourglass modes (HE), more than {:g} %: motions of the mesh, "
                      "not of the body; a finer or more regular mesh or another formulation shows whether the result depends on them",
                      100.0 * b.he / b.largest, 100.0 * much_hourglass));
+  }
+  constexpr double much_mass = 0.05;
+  if (const double share = output::mass_error(cycle->balance()); kind != Outcome::Kind::failed && share > much_mass) {
+    tell("run.added_mass",
+         fmt::format("/DT/NODA/CST has added {:.3g} % to the mass, more than {:g} %: much for a run in which inertia matters; a smaller "
+                     "minimum step adds less",
+                     100.0 * share, 100.0 * much_mass));
   }
   for (std::size_t k = 0; k < call_logs_.size(); ++k) {
     if (call_logs_[k].tellp() != 0) continue;

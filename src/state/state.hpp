@@ -19,6 +19,9 @@ struct StepTimes {
   double h_plus = 0.0;     ///< known after the step is chosen
   double h_bar = 0.0;      ///< (h_minus + h_plus) / 2
   double h_bar_old = 0.0;  ///< of the previous cycle, 0 in cycle 0
+
+  /// Whether `time` came with the step that ended now.
+  [[nodiscard]] bool reached(double time) const { return t >= time && t - h_minus < time; }
 };
 
 /// Nodal arrays, all #N (by 3), index = model node index.

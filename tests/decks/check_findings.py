@@ -53,6 +53,7 @@ DURING = {
     "contact.deep_penetration": ("deep_penetration", "sound", "standard"),
     "contact.energy_made": ("crossed", "sound", "reference"),  # the reference's plain switching loses energy
     "contact.lost_over_border": ("lost_over_border", "initial_penetration", "standard"),
+    "contact.first_step": ("initial_penetration", "sound", "standard"),
     "contact.turned_away": ("turned_away", "sound", "standard"),
 }
 failures = []

@@ -107,6 +107,8 @@ TEST(Engine, NodalStepAndMassScaling) {
   EXPECT_EQ(group.mass_scaling_nodes.value().size(), 4u);
   const Controls groups = controls("/RUN/a/1\n1\n/DT/NODA/CST/1\n0.9 1e-06\n3 2\n5 3\n");
   EXPECT_EQ(groups.mass_scaling_nodes.value().size(), 9u);  // 9 to 16 and 30, each once
+  const Built long_step = build_engine("/RUN/a/1\n1\n/DT/NODA/CST\n0.9 2\n");
+  EXPECT_TRUE(long_step.has("field 'Tmin': a minimum step of 2 is longer than the whole run, which ends at 1"));
   const Built empty = build_text(with_line(base_starter, "/GRNOD/NODE/3", 2, "        77"), "/RUN/a/1\n1\n/DT/NODA/CST/1\n0.9 1e-06\n3\n");
   EXPECT_TRUE(empty.has("field 'grnd_ID': /GRNOD 3 holds no node; name one that does, or take /1 out for all nodes"));
 }

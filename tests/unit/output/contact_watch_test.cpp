@@ -107,6 +107,18 @@ TEST_F(Watched, ADeformationThatTurnsTheNormalsIsTold) {
   expect_turned_away(found, scene_.model.interfaces[0].id, 0.5 * end, 0.75 * end);
 }
 
+// T31, T33: at Tstart the plate is behind the other one and 240 cycles later far away; when it is looked at again there is nothing to see.
+TEST_F(Watched, SurfacesThatHavePassedEachOtherAtTstartAreToldThen) {
+  const auto through = [](Vec3 x, double, double tau) {
+    return Vec3{x.x, x.y, x.z - 0.01 * 24000.0 * std::max(0.0, tau - (0.5 - 40.0 / 24000.0))};
+  };
+  scene_.model.interfaces[0].t_start = 0.5 * end;
+  state_.times.h_minus = end / 24000.0;
+  const RunFindings& found = run(through);
+  ASSERT_EQ(found.size(), 2u);  // both surfaces
+  for (const RunFinding& f : found) expect_turned_away({f}, scene_.model.interfaces[0].id, 0.499 * end, 0.501 * end);
+}
+
 // Twins: a plate that turns in its own plane, or tilts and comes back, goes on facing the other; a plate in contact is felt.
 TEST_F(Watched, MotionsThatLeaveTheNormalsFacingAreNotReported) {
   EXPECT_TRUE(run([](Vec3 x, double, double tau) {

@@ -63,6 +63,8 @@ TEST(Stops, WhereTheStepDoesNotGetToTheEnd) {
   EXPECT_EQ(message.find("the time step "), 0U) << message;
   EXPECT_NE(message.find(" does not get to the end time "), std::string::npos) << message;
   EXPECT_NE(message.find(" in 1e+13 cycles (cycle 0, time 0)"), std::string::npos) << message;
+  const std::string limited = failure_of(with_line(base_engine, "/DT", 0, "/DTIX\n1e-30 1e-30\n/DT"));  // a first step that cannot grow
+  EXPECT_NE(limited.find(" does not get to the end time "), std::string::npos) << limited;
 }
 
 TEST(Stops, AtTheAddedMassOfTheDeck) {
