@@ -251,6 +251,12 @@ def energy_made(p):
     p.thin((30, 60), (235, 60)).text(160, 54, "CX is not zero").text(200, 108, "time", GREY)
 
 
+def first_step(p):
+    upper(lower(p), y=58)
+    p.thin((30, 40), (230, 40)).text(36, 37, "gap", GREY).arrow(225, 58, 0, -28, RED).arrow(205, 58, 0, -18, GREY)
+    p.text(60, 102, "at time 0: pushed with less than it holds")
+
+
 def crossed(p):
     lower(p)
     p.node((130, 35)).arrow(130, 35, 0, 68).node((130, 105), color=GREY).text(140, 40, "one step").text(140, 104, "it would be here", GREY)
@@ -264,7 +270,7 @@ def lost_over_border(p):
 DRAWINGS = [shared_nodes, degenerate_facets, duplicate_facets, normals_away, normals_alike, partly_away, mixed_orientation, one_sided,
             junctions, no_stiffness, overlap, out_of_reach, stiffness_ratio, size_ratio, gap_large, gap_small, interface_step,
             aspect_ratio, warp, bound_by_wall, same_pair, initial_penetration, clearance, blind_nodes, concave, bound_by_condition, bound_by_body,
-            oriented, turned_away, deep_penetration, energy_made, crossed, lost_over_border]
+            oriented, turned_away, deep_penetration, energy_made, first_step, crossed, lost_over_border]
 
 
 def main():
