@@ -254,7 +254,7 @@ def energy_made(p):
 def first_step(p):
     upper(lower(p), y=58)
     p.thin((30, 40), (230, 40)).text(36, 37, "gap", GREY).arrow(225, 58, 0, -28, RED).arrow(205, 58, 0, -18, GREY)
-    p.text(60, 102, "at time 0: pushed with less than it holds")
+    p.text(40, 102, "leaves with less than it holds")
 
 
 def crossed(p):
