@@ -318,7 +318,7 @@ void Pass::finish_node(const Scene& scene, Index i, Touch& touch, bool rub, Grou
     }
     reaction.tangential = equal ? tangential : Vec3{};
     if (!equal || tangential_stiffness <= 0.0) return;
-    const FrictionCouple couple = friction_couple(surface.patch(m.facet), m.closest, held.x()[at(i)], tangential);
+    const FrictionCouple couple = friction_couple(scene.surface.patch(m.facet), m.closest, scene.held.x()[at(i)], tangential);
     for (std::size_t c = 0; c < 4; ++c) {
       reaction.normal[c] = Vec3(reaction.normal[c]) + couple.on_facet[c];
       reaction.stiffness[c] += tangential_stiffness * couple.corner_share[c];
