@@ -308,7 +308,7 @@ ABUT_INLINE void q4_lanes(const ShellKernelArgs& args, const Q4Parameters& q, do
 }
 
 /// q4_blocks with Q4Parameters::local_rates known when built: frozen shapes beside the ones as they are take registers that the others
-/// need (`kernel_shell 16`, LAW2: 60.5 ns with a branch inside, 56.0).
+/// need (docs/performance.md, "What changes brought").
 template <class T, ShellLaw law, bool local_rates>
 ABUT_INLINE void q4_blocks_of(const ShellKernelArgs& args, const Q4Parameters& q, double damping, std::size_t begin, std::size_t end) {
   constexpr int width = simd::NumberTraits<T>::width;

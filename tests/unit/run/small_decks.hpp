@@ -69,15 +69,19 @@ inline abut::Run run_of(const std::string& starter, const std::string& engine_de
   return run;
 }
 
-/// Last value of a column of the time history.
-inline double last(const abut::Run& run, const std::string& name) {
+/// Value of a column of the time history in a row, from 0.
+inline double value(const abut::Run& run, const std::string& name, std::size_t row) {
   const History& h = run.history();
   const auto found = std::find(h.names.begin(), h.names.end(), name);
   if (found == h.names.end()) {
     ADD_FAILURE() << "no column " << name << " in " << fmt::format("{}", fmt::join(h.names, " "));
     return 0.0;
   }
-  return h.values[h.values.size() - h.names.size() + static_cast<std::size_t>(found - h.names.begin())];
+  return h.values.at(row * h.names.size() + static_cast<std::size_t>(found - h.names.begin()));
+}
+inline double first(const abut::Run& run, const std::string& name) { return value(run, name, 0); }
+inline double last(const abut::Run& run, const std::string& name) {
+  return value(run, name, run.history().values.size() / run.history().names.size() - 1);
 }
 
 inline const std::vector<Vec3> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};

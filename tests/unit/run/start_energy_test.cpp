@@ -42,11 +42,6 @@ double largest_error(const abut::Run& run) {
   return largest;
 }
 
-double first(const abut::Run& run, const std::string& name) {
-  const History& h = run.history();
-  return h.values.at(static_cast<std::size_t>(std::find(h.names.begin(), h.names.end(), name) - h.names.begin()));
-}
-
 // The wall stops the body in cycle 0: all of its energy is work of the wall, and the run goes on to its end.
 TEST(StartEnergy, OfABodyFlushOnAWall) {
   const std::string deck = body(0) + initial_velocity(1, {0, 0, -0.05}, 3) + "/RWALL/PLANE/1\nwall\n" + ints({0, 0, 1, 0}) +
