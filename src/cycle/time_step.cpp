@@ -8,6 +8,7 @@
 
 #include "abut/diagnostic.hpp"
 #include "constraints/rigid_bodies.hpp"
+#include "model/step_scale.hpp"
 #include "parallel/ordered_sum.hpp"
 
 namespace abut::cycle {
@@ -30,19 +31,9 @@ TimeStep::TimeStep(const model::Model& model, const Profile& profile, bool has_t
       two_sided_(has_two_sided_interface),
       free_flight_(model),
       free_translation_(std::move(free_translation)),
-      free_rotation_(std::move(free_rotation)) {
+      free_rotation_(std::move(free_rotation)),
+      nodal_scale_(model::system_step_scale(model)) {
   const model::Controls& c = model.controls;
-  if (c.nodal_step) {
-    nodal_scale_ = c.nodal_scale;
-  } else {
-    nodal_scale_ = 1e30;
-    if (model.shells.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.shell.scale);
-    if (model.sh3ns.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.sh3n.scale);
-    if (model.bricks.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.brick.scale);
-    if (model.tetras.size() > 0) nodal_scale_ = std::min(nodal_scale_, c.tetra.scale);
-    if (nodal_scale_ > 1e29) nodal_scale_ = 0.9;
-    if (c.contact_scale_given) nodal_scale_ = std::min(nodal_scale_, c.contact_scale);
-  }
   if (c.mass_scaling) {
     scaled_.assign(static_cast<std::size_t>(model.node_count()), c.mass_scaling_nodes ? 0 : 1);
     if (c.mass_scaling_nodes) {

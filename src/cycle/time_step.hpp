@@ -66,7 +66,7 @@ class TimeStep {
   std::vector<std::uint8_t> free_translation_, free_rotation_;
   std::vector<std::uint8_t> scaled_;  ///< nodes that may receive mass
   std::vector<Smallest> leaves_;
-  double nodal_scale_ = 0.9;
+  double nodal_scale_;
   double previous_step_ = 1e30;                    ///< before the first cycle: no limit on growth
   double largest_step_ = 0.0, window_time_ = 0.0;  ///< of the run so far; where the present window of cycles began
   double added_mass_ = 0.0;

@@ -196,6 +196,10 @@ class Group {
 
 inline std::array<double, 6> Group::layer_stress(Index element, ShellLayer) const { return output(element).stress; }
 
+/// Viscosity counts as the stiffness 2 C/h, h the last step: r/h here, with r = min(1, s/0.9), so that h below the default scale of /DT
+/// goes with s as it does without viscosity. (At 0.9 and above h counts as it is: exact at s = 1.)
+[[nodiscard]] inline double viscous_rate(double system_scale) { return system_scale < 0.9 ? system_scale / 0.9 : 1.0; }
+
 /// What a group is made of.
 struct GroupInput {
   const model::Model* model = nullptr;
@@ -203,6 +207,7 @@ struct GroupInput {
   std::vector<Index> elements;  ///< indices into the model's table of that kind, in the order that sums follow
   Profile profile;
   double step_scale = 0.9;    ///< s_e of the Engine deck for this family
+  double system_scale = 0.9;  ///< s of the run's step (model::system_step_scale)
   double step_minimum = 0.0;  ///< Tmin with `step_action`
   model::StepControl::Action step_action = model::StepControl::Action::none;
   bool step_wanted = true;  ///< false: nobody reads GroupResult::step (1e30 then but in the first cycle); saves its roots

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "init/locality.hpp"
+#include "model/step_scale.hpp"
 
 namespace abut::init {
 
@@ -31,6 +32,7 @@ std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& mo
   auto bricks = by_part(model.bricks, parts);
   auto tetras = by_part(model.tetras, parts);
 
+  const double scale = model::system_step_scale(model);
   std::vector<std::unique_ptr<elements::Group>> groups;
   const auto add = [&](auto make, std::vector<Index>& list, std::size_t part, const model::StepControl& control, const auto& table) {
     if (list.empty()) return;
@@ -41,6 +43,7 @@ std::vector<std::unique_ptr<elements::Group>> make_groups(const model::Model& mo
     in.elements = std::move(list);
     in.profile = profile;
     in.step_scale = control.scale;
+    in.system_scale = scale;
     in.step_minimum = control.minimum;
     const Index property = model.parts[part].property;
     if (const auto* solid = std::get_if<model::SolidProperty>(&model.properties[static_cast<std::size_t>(property)].data)) {

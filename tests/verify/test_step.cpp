@@ -401,4 +401,34 @@ TEST(Step, TwoRigidBodiesBesideTheirCentres) {
   check("a brick between two rigid bodies beside their centres", s, 1e-9, false, 0.6);
 }
 
+// h = s h_0 for every scale of the default and below, also where viscosity has a share of the step.
+TEST(Step, GoesWithTheScaleOfDt) {
+  const auto settled = [](Scene& scene, double scale) {
+    scene.end(1e-12, 0.0, scale);
+    Recorder first;
+    (void)abut::cycle::run(scene.model, {}, first);
+    scene.end(100.0 * first.samples.front().dt, 0.0, scale);
+    Recorder recorder;
+    (void)abut::cycle::run(scene.model, {}, recorder);
+    return recorder.samples[recorder.samples.size() - 2].dt;  // the last one may be cut short by the end
+  };
+  Scene bricks("bricks");
+  const auto steel = bricks.elastic(density, young, 0.3);
+  (void)bricks.block(bricks.part(bricks.solid_property(), steel), {0, 0, 0}, {0.02, 0.02, 0.02}, {2, 2, 2});
+  Scene shells("shells");
+  const Index damped = shells.shell_property(0.001);
+  std::get<model::ShellProperty>(shells.model.properties[static_cast<std::size_t>(damped)].data).dm = 0.3;
+  shells.shells(shells.part(damped, shells.elastic(density, young, 0.3)), 3, 3, [](double u, double v) {
+    return Vec3{0.03 * u, 0.03 * v, 0.0};
+  });
+  for (Scene* scene : {&bricks, &shells}) {
+    const double usual = settled(*scene, 0.9) / 0.9;
+    for (const double scale : {0.67, 0.3, 0.05}) {
+      const double h = settled(*scene, scale) / scale;
+      std::printf("[found] step, %s: h/s %.5e at %.2f, %.5e at 0.90\n", scene == &bricks ? "bricks" : "damped shells", h, scale, usual);
+      EXPECT_NEAR(h, usual, 1e-6 * usual) << scale;
+    }
+  }
+}
+
 }  // namespace

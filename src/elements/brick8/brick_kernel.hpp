@@ -261,7 +261,7 @@ ABUT_INLINE void brick_lanes(const SolidTask& task, std::int32_t block, int lane
     t.hourglass = eight * viscosity;
     if (c.orthogonal_hourglass) t.mixed = viscosity * (dot(m.g1, m.g1) + dot(m.g2, m.g2) + dot(m.g3, m.g3) + dot(m.g4, m.g4)) * g;
     inverse_step = c.step_wanted || !(dt > 0.0) ? bound_inverse_step(t) : zero;
-    stiffness = R(1.0 / 16.0) * mass * effective_eigenvalue(t, dt > 0.0 ? R(inv_dt) : inverse_step);
+    stiffness = R(1.0 / 16.0) * mass * effective_eigenvalue(t, dt > 0.0 ? R(c.viscous_rate * inv_dt) : inverse_step);
   }
   // A NaN compares false: what is not below the limit is bad.
   const auto bad = !(sound & (inverse_step < R(1e30)) & (stiffness < R(1e300)) & (simd::abs(state.get(f_energy)) < R(1e300)));

@@ -102,7 +102,7 @@ ABUT_INLINE ShellStep<T> c0_step_bound(const ShellSection& s, const C0Geometry<T
   }
   T c = zero;
   if (s.membrane_damping > 0.0) { c = t_per_a * T(s.membrane_damping) * sqrt(g.area) * damping_eigenvalue(trace, det); }
-  return bounded_step(s.step_wanted, k, c, h);
+  return bounded_step(s.step_wanted, k, c, h, s.viscous_rate);
 }
 
 template <class T>

@@ -57,6 +57,7 @@ struct ShellSection {
   bool bending = true;        ///< false for N = 1
   bool thickness_changes = false;
   bool step_wanted = true;        ///< GroupInput
+  double viscous_rate = 1.0;      ///< group.hpp
   bool mean_volume = true;        ///< Profile::StrainIncrement
   double membrane_damping = 0.0;  ///< 1.414 dm rho c; 0 = none
   double zeta[max_thickness_points] = {}, weight[max_thickness_points] = {}, moment_weight[max_thickness_points] = {};

@@ -114,6 +114,7 @@ std::optional<ShellSection> make_section(const GroupInput& in, bool mean_yield) 
   if (shell == nullptr) { throw std::invalid_argument("property " + std::to_string(property.id) + " is not a shell property"); }
   ShellSection s;
   s.step_wanted = in.step_wanted;
+  s.viscous_rate = viscous_rate(in.system_scale);
   s.mean_volume = in.profile.strain_increment == Profile::StrainIncrement::midpoint;
   const auto* johnson_cook = std::get_if<model::LawJohnsonCook>(&material.law);
   const auto* elastic = std::get_if<model::LawElastic>(&material.law);

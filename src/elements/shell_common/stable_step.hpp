@@ -34,18 +34,18 @@ ABUT_INLINE T damping_eigenvalue(T trace, T det) {
   return T(1.0 / 24.0) * (T(13.0) * trace + sqrt(max(T(169.0) * trace * trace - T(576.0) * det, T(0.0))));
 }
 
-/// 2 c / h_ref, h_ref half of the last step `h`, in the first cycle of the element's own step.
+/// 2 c r / h_ref, h_ref half of the last step `h`, r = `rate` (group.hpp, viscous_rate); in the first cycle of the element's own step.
 template <class T>
-ABUT_INLINE T viscous_stiffness(T c, T step, double h) {
-  return h > 0.0 ? T(4.0 / h) * c : T(4.0) * c / step;
+ABUT_INLINE T viscous_stiffness(T c, T step, double h, double rate) {
+  return h > 0.0 ? T(4.0 * rate / h) * c : T(4.0) * c / step;
 }
 
 /// Step and stiffness of an element with eigenvalues k and c; the step itself only where it is read.
 template <class T>
-ABUT_INLINE ShellStep<T> bounded_step(bool wanted, T k, T c, double h) {
+ABUT_INLINE ShellStep<T> bounded_step(bool wanted, T k, T c, double h, double rate) {
   ShellStep<T> out;
   out.step = wanted || !(h > 0.0) ? stable_step(k, c) : T(1e30);
-  out.per_mass = T(0.5) * (k + viscous_stiffness(c, out.step, h));
+  out.per_mass = T(0.5) * (k + viscous_stiffness(c, out.step, h, rate));
   out.stiffness = T(0.0);
   out.rotational = T(0.0);
   return out;

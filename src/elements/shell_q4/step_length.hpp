@@ -86,7 +86,7 @@ ABUT_INLINE ShellStep<T> q4_step_bound(const ShellSection& s, const Q4Parameters
     const T d = T(s.membrane_damping) * sqrt(a);
     c = c + t_per_am * d * damping_eigenvalue(trace, a2);
   }
-  return bounded_step(s.step_wanted, k, c, h);
+  return bounded_step(s.step_wanted, k, c, h, s.viscous_rate);
 }
 
 /// `damping`: sqrt(1 + dm^2) - dm.

@@ -100,6 +100,7 @@ SolidGroup::SolidGroup(const GroupInput& in, int nodes_per_element, SolidKernel 
   reference_part_mass_ = config_.small_strain && config_.reference_step;
   nodal_part_sums_ = in.profile.part_sums == Profile::PartSums::nodal;
   config_.step_scale = in.step_scale;
+  config_.viscous_rate = viscous_rate(in.system_scale);
   config_.step_wanted = in.step_wanted;
   config_.step_minimum = in.step_minimum;
   config_.remove_small_step = in.step_action == model::StepControl::Action::remove;

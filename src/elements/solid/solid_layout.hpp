@@ -53,6 +53,7 @@ struct SolidConfig {
   bool finite_rotation = true;      ///< Profile::StressRotation
   bool literal_spin = false;        ///< TETRA4: spin with the reference's second-order terms
   double step_scale = 0.9, step_minimum = 0.0;
+  double viscous_rate = 1.0;  ///< group.hpp
   bool remove_small_step = false;
   bool step_wanted = true;                                                                 ///< GroupInput
   int fields = common_fields;                                                              ///< per block

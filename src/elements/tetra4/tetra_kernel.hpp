@@ -93,7 +93,7 @@ ABUT_INLINE void tetra_lanes(const SolidTask& task, std::int32_t block, int lane
     const R g = largest_gradient(trace, dot(diagonal, diagonal) + R(2.0) * dot(mixed, mixed));
     const StabilityTerms<R> t = stability_terms(c, point, in.volume * state.get(f_inverse_mass), trace, g);
     inverse_step = c.step_wanted || !(dt > 0.0) ? bound_inverse_step(t) : zero;
-    const R eigenvalue = R(0.5) * mass * effective_eigenvalue(t, dt > 0.0 ? R(inv_dt) : inverse_step);
+    const R eigenvalue = R(0.5) * mass * effective_eigenvalue(t, dt > 0.0 ? R(c.viscous_rate * inv_dt) : inverse_step);
     for (int k = 0; k < 4; ++k) stiffness[k] = state.get(share + k) * eigenvalue;
   }
   const auto bad = !(sound & (inverse_step < R(1e30)) & (stiffness[0] < R(1e300)) & (simd::abs(state.get(f_energy)) < R(1e300)));
