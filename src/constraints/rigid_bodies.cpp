@@ -147,8 +147,6 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
       if (conserving_) springs.add(state.x[s] - centre, state.stiffness[s], state.rotational_stiffness[s]);
       state.stiffness[s] = state.rotational_stiffness[s] = conserving_ ? 0.0 : 1e-20;
     }
-    sums.force_impulse += h_minus * sums.force;
-    sums.moment_impulse += h_minus * sums.moment;
     sums.rotation += h_minus * state.w[main];
     state.f[main] += sums.force;
     state.stiffness[main] += k;
@@ -165,6 +163,13 @@ void RigidBodies::gather(state::State& state, const BoundaryConditions& conditio
     }
     body.euler_alpha = angular_acceleration(body, torque(i, state), state.w[main], 0.0, conditions.held(card.main, true));
     state.m[main] = state.inertia[main] * body.euler_alpha;
+  }
+}
+
+void RigidBodies::book_impulses(double h) {
+  for (BodySums& sums : sums_) {
+    sums.force_impulse += h * sums.force;
+    sums.moment_impulse += h * sums.moment;
   }
 }
 

@@ -17,7 +17,7 @@
 namespace abut::constraints {
 
 /// Sums of one body: force and moment about the main node of the secondary nodes (without the main node's own), this cycle
-/// and integrated over time (times h_-); rotation: integral of the main node's angular velocity.
+/// and integrated over time; rotation: integral of the main node's angular velocity.
 struct BodySums {
   Vec3 force_impulse, moment_impulse, force, moment, rotation;
 };
@@ -61,6 +61,7 @@ class RigidBodies {
   /// principal axes by w h_- first. Reference profile: sets the main node's moment to inertia times the angular acceleration of Euler's
   /// equations, so that alpha = m / inertia holds for it too.
   void gather(state::State& state, const BoundaryConditions& conditions);
+  void book_impulses(double h);  ///< of this cycle's forces and moments, once its step is known
 
   /// After step 16, standard profile: angular acceleration of the main nodes by Euler's equations, over the step that is now
   /// chosen. Rotational boundary conditions of the main node reduce the system to the free directions.

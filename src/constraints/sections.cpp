@@ -87,7 +87,11 @@ void Sections::gather(const state::State& state, std::span<const double> slots) 
     sums.tangential_force = force - sums.normal_force;
     sums.moment =
         card.iframe >= 10 ? moment : Vec3{dot(moment, section.frame[0]), dot(moment, section.frame[1]), dot(moment, section.frame[2])};
-    const double h = state.times.h_minus;
+  }
+}
+
+void Sections::book_impulses(double h) {
+  for (SectionSums& sums : sums_) {
     sums.normal_impulse += h * sums.normal_force;
     sums.tangential_impulse += h * sums.tangential_force;
     sums.moment_impulse += h * sums.moment;

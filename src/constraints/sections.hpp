@@ -33,8 +33,9 @@ class Sections {
   /// @param groups the run's element groups, with their slot offsets set
   Sections(const model::Model& model, std::span<const std::unique_ptr<elements::Group>> groups);
 
-  /// Step 11: resultants of this cycle from element slots; impulses grow by force times h_-.
+  /// Step 11: resultants of this cycle from element slots.
   void gather(const state::State& state, std::span<const double> slots);
+  void book_impulses(double h);  ///< of this cycle's resultants, once its step is known
 
   void persist(state::Archive& a);
 

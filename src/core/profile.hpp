@@ -62,6 +62,9 @@ struct Profile {
   enum class KineticEnergy { leapfrog, midpoint };
   /// External work: the exact discrete work of loads and constraints, or as the reference program books it.
   enum class ExternalWork { discrete, booked };
+  /// Time integrals of the forces on interfaces, rigid bodies and sections: times the step of the kick that the force gives, so that they
+  /// are the momentum that it gave; or times the step before the force (interfaces: the kick before).
+  enum class Impulses { kick, step_before };
 
   ElementStep element_step = ElementStep::bound;
   SystemStep system_step = SystemStep::nodal;
@@ -82,6 +85,7 @@ struct Profile {
   MovingWall moving_wall = MovingWall::same_cycle;
   WallFilter wall_filter = WallFilter::bounded;
   PartSums part_sums = PartSums::nodal;
+  Impulses impulses = Impulses::kick;
   /// Contact rules are chosen in contact::Rules (a library of its own); this says which set the run asks for.
   bool reference_contact = false;
 
@@ -107,6 +111,7 @@ struct Profile {
     p.moving_wall = MovingWall::reference;
     p.wall_filter = WallFilter::reference;
     p.part_sums = PartSums::reference;
+    p.impulses = Impulses::step_before;
     p.reference_contact = true;
     return p;
   }

@@ -93,9 +93,13 @@ void Cycle::release_boundary_conditions() {
   }
 }
 
-void Cycle::book_interfaces() {
-  // The reference counts impulses with the half-step sum of the cycle before (numerics.md 7.4.2).
-  const double h = options_.profile.reference_contact ? state_.times.h_bar_old : state_.times.h_bar;
+void Cycle::book_impulses() {
+  const state::StepTimes& t = state_.times;
+  const bool kick = options_.profile.impulses == Profile::Impulses::kick;
+  bodies_.book_impulses(kick ? t.h_bar : t.h_minus);
+  sections_.book_impulses(kick ? t.h_bar : t.h_minus);
+  // The reference counts those of interfaces with the half-step sum of the cycle before (numerics.md 7.4.2).
+  const double h = kick ? t.h_bar : t.h_bar_old;
   for (InterfaceResult& r : interface_results_) {
     r.normal_impulse += h * r.normal_force;
     r.tangential_impulse += h * r.tangential_force;

@@ -61,7 +61,7 @@ void Cycle::advance(Sink& sink) {
     if (held_again_) boundary_.apply(state_);  // 22
     bodies_.scatter(state_);                   // 23
     accelerometers_.record(state_);            // 24
-    book_interfaces();
+    book_impulses();
     close_balance();  // 25
   }
   {

@@ -85,7 +85,7 @@ class Cycle {
   void assemble();
   void accelerate_again();
   void release_boundary_conditions();
-  void book_interfaces();
+  void book_impulses();
   void close_balance();
   void integrate();
   void check_finite();

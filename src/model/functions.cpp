@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "model/mesh.hpp"
@@ -46,6 +47,24 @@ Vec3 read_vector(BlockReader& r, std::string_view x, std::string_view y, std::st
   return {r.real({1, 20}, x, d), r.real({21, 40}, y, d), r.real({41, 60}, z, d)};
 }
 
+/// Of any length that a double holds. Zero stays zero.
+Vec3 unit(const Vec3& a) {
+  const double largest = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+  return largest > 0.0 ? normalized({a.x / largest, a.y / largest, a.z / largest}) : Vec3{};
+}
+
+/// A card too few or too many is read as one vector and a blank one, which then has its default.
+void warn_half_given(BlockReader& r, const Vec3& y, const Vec3& z, bool has_origin) {
+  const bool only_y = z == Vec3{} && y != Vec3{} && (y.x != 0.0 || y.z != 0.0);
+  const bool only_z = y == Vec3{} && z != Vec3{} && (z.x != 0.0 || z.y != 0.0);
+  if (!only_y && !only_z) return;
+  r.warning(
+      "model.skew_half_given", {1, 60}, only_y ? "Z'" : "Y'",
+      fmt::format("only {}' is given, {}' is taken as the global {} axis; {}", only_y ? 'y' : 'z', only_y ? 'z' : 'y', only_y ? 'Z' : 'Y',
+                  has_origin ? "from version 120 on three cards are read, the origin first, then y' and z': is one missing?"
+                             : "up to version 110 two cards are read, y' and z', without an origin: is one too many?"));
+}
+
 /// z' is kept, x' = y' x z', y' = z' x x' (numerics.md 6.6.1).
 void read_fixed_axes(BlockReader& r, Skew& s, bool has_origin) {
   r.last_column(60);
@@ -56,11 +75,13 @@ void read_fixed_axes(BlockReader& r, Skew& s, bool has_origin) {
   const Vec3 z = read_vector(r, "X2", "Y2", "Z2");
   const Vec3 y0 = y == Vec3{} ? Vec3{0, 1, 0} : y;
   const Vec3 z0 = z == Vec3{} ? Vec3{0, 0, 1} : z;
-  s.axes[2] = normalized(z0);
-  s.axes[0] = normalized(cross(normalized(y0), s.axes[2]));
+  s.axes[2] = unit(z0);
+  s.axes[0] = normalized(cross(unit(y0), s.axes[2]));
   s.axes[1] = cross(s.axes[2], s.axes[0]);
   if (squared_norm(s.axes[0]) == 0.0) {
     r.error("model.skew_axes", {1, 60}, "Z'", "the vectors of y' and z' are parallel: they must span a plane");
+  } else {
+    warn_half_given(r, y, z, has_origin);
   }
 }
 

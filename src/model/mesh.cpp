@@ -81,6 +81,7 @@ std::set<Id> declared_ids(const Context& c, std::string_view keyword) {
 void read_parts(Context& c) {
   struct Entry : Part {
     Id subset = 0;
+    Place subset_place;
     bool lacks_material = false;
   };
   std::vector<Entry> parts;
@@ -106,6 +107,7 @@ void read_parts(Context& c) {
     p.lacks_material = material == 0;
     p.material = resolve(r, c.tables.materials, materials, material, "/MAT", {11, 20}, "mat_ID");
     p.subset = r.integer({21, 30}, "subset_ID");
+    p.subset_place = r.place({21, 30}, "subset_ID");
     p.contact_thickness = r.real({31, 50}, "Thick", dim::length);
     if (p.contact_thickness < 0.0)
       r.error("model.negative_thickness", {31, 50}, "Thick",
@@ -116,6 +118,7 @@ void read_parts(Context& c) {
   sort_by_id(c, parts, places, "/PART", c.tables.parts);
   for (Entry& p : parts) {
     c.part_subset.push_back(p.subset);
+    c.part_subset_place.push_back(std::move(p.subset_place));
     c.part_lacks_material.push_back(p.lacks_material);
     c.model->parts.push_back(std::move(static_cast<Part&>(p)));
   }

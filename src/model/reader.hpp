@@ -67,6 +67,7 @@ struct Context {
   ShellDefaults shell_defaults;
   SolidDefaults solid_defaults;
   std::vector<Id> part_subset;                 ///< subset id of each part (0: root)
+  std::vector<Place> part_subset_place;        ///< where it stands
   std::vector<bool> part_lacks_material;       ///< the card of the part names none
   Units input;                                 ///< units of the deck's values; work units are model->units
   std::unordered_map<Id, Units> local;         ///< /UNIT/id

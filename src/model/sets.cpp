@@ -54,12 +54,11 @@ SetReader::SetReader(Context& c) : c_(c), m_(*c.model), boxes_(c) {
 
 void SetReader::collect() {
   std::array<std::unordered_map<Id, Place>, set_family_count> first;
-  std::unordered_map<Id, Place> first_subset;
   for (const deck::Block& b : c_.deck->blocks) {
     if (b.is(0, "SUBSET")) {
       BlockReader r(c_, b, 1, true);
-      if (r.id() > 0 && !first_subset.emplace(r.id(), r.place()).second)
-        report_duplicate(c_, "/SUBSET", r.id(), r.place(), first_subset[r.id()]);
+      const auto [first_of_id, is_new] = subset_places_.try_emplace(r.id(), r.place());
+      if (r.id() > 0 && !is_new) report_duplicate(c_, "/SUBSET", r.id(), r.place(), first_of_id->second);
       std::vector<Id>& children = subset_children_[r.id()];
       for (const Id child : r.id_list("subset_ID")) children.push_back(child);
       continue;
@@ -85,6 +84,50 @@ void SetReader::collect() {
     } else {
       report_duplicate(c_, family_name(family), item.id, place, first[slot][item.id]);
     }
+  }
+  check_subsets();
+}
+
+void SetReader::check_subsets() {
+  // Depth first: a child that is still open holds the subset that names it.
+  std::unordered_map<Id, bool> open;
+  for (const auto& [root, root_place] : subset_places_) {
+    std::vector<std::pair<Id, std::size_t>> path;  // subset, children looked at
+    if (open.try_emplace(root, true).second) path.emplace_back(root, 0);
+    while (!path.empty()) {
+      auto& [id, next] = path.back();
+      const std::vector<Id>& children = subset_children_.at(id);
+      if (next == children.size()) {
+        open[id] = false;
+        path.pop_back();
+        continue;
+      }
+      const Id child = children[next++];
+      const auto place = subset_places_.find(child);
+      if (place == subset_places_.end()) continue;
+      const auto [entry, is_new] = open.try_emplace(child, true);
+      if (is_new) {
+        path.emplace_back(child, 0);
+      } else if (entry->second) {
+        c_.diagnostics->error("model.circular_reference", place->second, "the subset contains itself");
+      }
+    }
+  }
+  for (const auto& [id, place] : subset_places_) {
+    for (const Id child : subset_children_[id]) {
+      if (subset_places_.count(child) > 0) continue;
+      const bool named = subset_parts_.count(child) > 0;
+      c_.diagnostics->warning(
+          "model.unknown_member", place,
+          fmt::format("no /SUBSET with id {}: {}", child, named ? "it is taken as that of the parts that name it" : "left out"));
+    }
+  }
+  std::set<Id> told;
+  for (std::size_t p = 0; p < c_.part_subset.size(); ++p) {
+    const Id subset = c_.part_subset[p];
+    if (subset == 0 || subset_places_.count(subset) > 0 || !told.insert(subset).second) continue;
+    c_.diagnostics->warning("model.unknown_member", c_.part_subset_place[p],
+                            fmt::format("no /SUBSET with id {}: parts that name it are reached by this id alone", subset));
   }
 }
 
@@ -161,42 +204,32 @@ void SetReader::register_results() {
   std::stable_sort(order.begin(), order.end(), [](const Item* a, const Item* b) {
     return std::pair(a->id, a->family == SetFamily::set) < std::pair(b->id, b->family == SetFamily::set);
   });
-  const auto add_group = [](Tables::Map& table, std::vector<IndexGroup>& groups, Id id, Members members) {
-    if (table.emplace(id, static_cast<Index>(groups.size())).second) groups.push_back({id, std::move(members)});
+  std::string first_served;  // families that have the id of the set at hand
+  const auto add = [&](Tables::Map& table, auto& groups, SetFamily family, Id id, auto members, auto... title) {
+    const bool empty = members.empty();
+    if (table.emplace(id, static_cast<Index>(groups.size())).second) {
+      groups.push_back({id, std::move(title)..., std::move(members)});
+    } else if (!empty) {
+      first_served += fmt::format("{}{}", first_served.empty() ? "" : ", ", family_name(family));
+    }
   };
   for (Item* item : order) {
+    first_served.clear();
     const bool is_set = item->family == SetFamily::set;
-    if (item->family == SetFamily::grnod || is_set) {
-      if (c_.tables.node_groups.emplace(item->id, static_cast<Index>(m.node_groups.size())).second) {
-        m.node_groups.push_back({item->id, item->title, std::move(item->members)});
-      }
+    const auto serves = [&](SetFamily family) { return item->family == family || is_set; };
+    const auto of_kind = [&](Members& of_set) { return std::move(is_set ? of_set : item->members); };
+    if (serves(SetFamily::grshel)) add(c_.tables.shell_groups, c_.shell_groups, SetFamily::grshel, item->id, of_kind(item->shells));
+    if (serves(SetFamily::grsh3n)) add(c_.tables.sh3n_groups, c_.sh3n_groups, SetFamily::grsh3n, item->id, of_kind(item->sh3ns));
+    if (serves(SetFamily::grbric)) add(c_.tables.brick_groups, c_.brick_groups, SetFamily::grbric, item->id, of_kind(item->solids));
+    if (serves(SetFamily::grpart)) add(c_.tables.part_groups, c_.part_groups, SetFamily::grpart, item->id, of_kind(item->parts));
+    if (serves(SetFamily::surf) && !(is_set && item->segments.empty())) {
+      add(c_.tables.surfaces, m.surfaces, SetFamily::surf, item->id, std::move(item->segments), item->title);
     }
-    if (item->family == SetFamily::surf || (is_set && !item->segments.empty())) {
-      if (c_.tables.surfaces.emplace(item->id, static_cast<Index>(m.surfaces.size())).second) {
-        m.surfaces.push_back({item->id, item->title, std::move(item->segments)});
-      }
-    }
-    switch (item->family) {
-      case SetFamily::grshel:
-        add_group(c_.tables.shell_groups, c_.shell_groups, item->id, std::move(item->members));
-        break;
-      case SetFamily::grsh3n:
-        add_group(c_.tables.sh3n_groups, c_.sh3n_groups, item->id, std::move(item->members));
-        break;
-      case SetFamily::grbric:
-        add_group(c_.tables.brick_groups, c_.brick_groups, item->id, std::move(item->members));
-        break;
-      case SetFamily::grpart:
-        add_group(c_.tables.part_groups, c_.part_groups, item->id, std::move(item->members));
-        break;
-      case SetFamily::set:
-        add_group(c_.tables.shell_groups, c_.shell_groups, item->id, std::move(item->shells));
-        add_group(c_.tables.sh3n_groups, c_.sh3n_groups, item->id, std::move(item->sh3ns));
-        add_group(c_.tables.brick_groups, c_.brick_groups, item->id, std::move(item->solids));
-        add_group(c_.tables.part_groups, c_.part_groups, item->id, std::move(item->parts));
-        break;
-      default:
-        break;
+    if (serves(SetFamily::grnod))
+      add(c_.tables.node_groups, m.node_groups, SetFamily::grnod, item->id, std::move(item->members), item->title);
+    if (!first_served.empty()) {
+      c_.diagnostics->warning("model.ambiguous_group", c_.deck->place(*item->block),
+                              fmt::format("{} with the same id: references to id {} get those, not this set", first_served, item->id));
     }
   }
 }

@@ -66,6 +66,9 @@ class SetReader {
   const std::vector<Segment>* segments(Id id);
   void register_results();
 
+  /// Warns of references to subsets that are not defined; a subset that holds itself is an error.
+  void check_subsets();
+
   // ---- groups.cpp
   [[nodiscard]] SignedIds signed_ids(BlockReader& r, std::string_view field) const;
   void warn_missing(BlockReader& r, std::string_view what, const std::vector<Id>& missing);
@@ -115,6 +118,7 @@ class SetReader {
   std::deque<Item> items_;
   std::array<std::unordered_map<Id, Item*>, set_family_count> by_id_;
   std::unordered_map<Id, std::vector<Id>> subset_children_;
+  std::map<Id, Place> subset_places_;  ///< of those that are defined
   std::unordered_map<Id, std::vector<Index>> subset_parts_;
   std::vector<Members> part_shells_, part_sh3ns_, part_solids_;
   std::optional<NodeElements> node_elements_;

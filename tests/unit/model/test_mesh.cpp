@@ -255,6 +255,40 @@ TEST(Skews, BeforeVersion120ThereIsNoOriginCard) {
   EXPECT_EQ(r.model.skews[0].axes[0], (Vec3{0, -1, 0}));
 }
 
+// What a card too few or too many looks like.
+TEST(Skews, OneVectorAloneIsNamed) {
+  const std::string old = "/BEGIN\nx\n       110         0\n";
+  const auto said = [](const std::string& text) {
+    Reading r;
+    r.read(text);
+    EXPECT_EQ(r.errors(), Strings{});
+    const Strings warnings = r.messages(Severity::warning);
+    return warnings.empty() ? std::string() : warnings.front();
+  };
+  const std::string y = reals({"0", "0", "1"}), z = reals({"-1", "0", "0"}), none = "\n";
+  EXPECT_EQ(said(std::string(begin_2022) + "/SKEW/FIX/3\ns\n" + none + z + none),
+            "t_0000.rad:6: warning: /SKEW/FIX/3 field 'Z'' (columns 1-60): only y' is given, z' is taken as the global Z axis; from "
+            "version 120 on "
+            "three cards are read, the origin first, then y' and z': is one missing?");
+  EXPECT_EQ(
+      said(old + "/SKEW/FIX/3\ns\n" + none + z),
+      "t_0000.rad:7: warning: /SKEW/FIX/3 field 'Y'' (columns 1-60): only z' is given, y' is taken as the global Y axis; up to version 110 "
+      "two cards are read, y' and z', without an origin: is one too many?");
+  EXPECT_EQ(said(old + "/SKEW/FIX/3\ns\n" + y + z), "");
+  EXPECT_EQ(said(old + "/SKEW/FIX/3\ns\n" + none + none), "");
+  EXPECT_EQ(said(old + "/SKEW/FIX/3\ns\n" + reals({"0", "2", "0"}) + none), "");
+  EXPECT_EQ(said(old + "/SKEW/FIX/3\ns\n" + none + reals({"0", "0", "3"})), "");
+}
+
+TEST(Skews, VectorsOfAnyLength) {
+  Reading r;
+  r.read(std::string(begin_2022) + "/SKEW/FIX/3\ns\n\n" + reals({"0", "0", "1e200"}) + reals({"-1e-200", "0", "0"}));
+  EXPECT_EQ(r.errors(), Strings{});
+  EXPECT_EQ(r.model.skews[0].axes[0], (Vec3{0, -1, 0}));
+  EXPECT_EQ(r.model.skews[0].axes[1], (Vec3{0, 0, 1}));
+  EXPECT_EQ(r.model.skews[0].axes[2], (Vec3{-1, 0, 0}));
+}
+
 TEST(Skews, MovingAxesFollowThreeNodesInEveryDirection) {
   Reading r;
   r.read(std::string(begin_2022) + cube() + "/SKEW/MOV/1\ns\n" + ints({1, 2, 3}) + "/SKEW/MOV/2\ns\n" + ints({1, 2, 3}).substr(0, 30) +

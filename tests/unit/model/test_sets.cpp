@@ -68,7 +68,7 @@ TEST(Groups, NodeListsSkipRepetitionsAndSort) {
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(group(r, 5), (Nodes{0, 1, 2}));
   EXPECT_EQ(group(r, 6), (Nodes{6, 7}));
-  EXPECT_EQ(r.messages(Severity::warning), Strings{"t_0000.rad:41: warning: /GRNOD/NODE/5: no /NODE with id 7777: left out"});
+  EXPECT_EQ(r.messages(Severity::warning).back(), "t_0000.rad:41: warning: /GRNOD/NODE/5: no /NODE with id 7777: left out");
 }
 
 TEST(Groups, Surprise22NestingExclusionAndRangesInAnyOrder) {
@@ -112,12 +112,37 @@ TEST(Groups, DeepNestingEndsWithAMessage) {
 
 TEST(Groups, SubsetsAreATree) {
   Reading r;
-  r.read(blocks(2) + "/SUBSET/4\nroot\n" + ints({5, 6}) + "/SUBSET/5\nchild, refers back\n" + ints({4}) + "/GRPART/SUBSET/1\ng\n" +
-         ints({4}) + "/GRNOD/SUBSET/2\ng\n" + ints({4}) + "/GRBRIC/SUBSET/3\ng\n" + ints({6}) + "/SUBSET/9\nempty\n");
+  r.read(blocks(2) + "/SUBSET/4\nroot\n" + ints({5, 6}) + "/SUBSET/5\nchild\n/SUBSET/6\nchild\n/GRPART/SUBSET/1\ng\n" + ints({4}) +
+         "/GRNOD/SUBSET/2\ng\n" + ints({4}) + "/GRBRIC/SUBSET/3\ng\n" + ints({6}) + "/SUBSET/9\nempty\n");
   EXPECT_EQ(r.errors(), Strings{});
   EXPECT_EQ(r.context.part_groups[0].members, (Nodes{2}));
   EXPECT_EQ(group(r, 2).size(), 18u);
   EXPECT_EQ(r.context.brick_groups[0].members, (Nodes{4, 5, 6, 7}));
+  EXPECT_EQ(r.messages(Severity::warning), Strings{});
+}
+
+TEST(Groups, SubsetsThatHoldThemselvesAreErrors) {
+  Reading r;
+  r.read(blocks(2) + "/SUBSET/6\nof a part\n/SUBSET/4\nround\n" + ints({5, 6}) + "/SUBSET/5\nround\n" + ints({7}) + "/SUBSET/7\nround\n" +
+         ints({6, 4}) + "/SUBSET/8\nholds a round\n" + ints({4, 6}) + "/SUBSET/9\nitself\n" + ints({9}) + "/GRNOD/SUBSET/1\ng\n" +
+         ints({8}));
+  EXPECT_EQ(r.errors(),
+            (Strings{"t_0000.rad:73: /SUBSET/4: the subset contains itself", "t_0000.rad:85: /SUBSET/9: the subset contains itself"}));
+  EXPECT_EQ(group(r, 1).size(), 18u);
+}
+
+// What stands in a group is the same with and without the definition of a subset that parts name; that it is missing is said.
+TEST(Groups, SubsetsThatAreNotDefinedAreNamed) {
+  Reading r;
+  r.read(blocks(2) + "/SUBSET/4\nroot\n" + ints({6, 60}) + "/GRBRIC/SUBSET/3\ng\n" + ints({4}));
+  EXPECT_EQ(r.errors(), Strings{});
+  EXPECT_EQ(r.context.brick_groups[0].members, (Nodes{4, 5, 6, 7}));
+  EXPECT_EQ(
+      r.messages(Severity::warning),
+      (Strings{"t_0000.rad:71: warning: /SUBSET/4: no /SUBSET with id 6: it is taken as that of the parts that name it",
+               "t_0000.rad:71: warning: /SUBSET/4: no /SUBSET with id 60: left out",
+               "t_0000.rad:27: warning: /PART/3 field 'subset_ID' (columns 21-30): no /SUBSET with id 6: parts that name it are reached by "
+               "this id alone"}));
 }
 
 TEST(Boxes, EveryShapeHoldsItsBoundary) {
@@ -266,6 +291,16 @@ TEST(GeneralSets, Surprise21OneSetServesAsGroupAndSurface) {
   EXPECT_EQ(group(r, 8).size(), 27u);
   EXPECT_EQ(surface(r, 9).size(), 14u);
   EXPECT_DOUBLE_EQ(enclosed_volume(r, surface(r, 9)), 3.0);
+}
+
+TEST(GeneralSets, GroupsOfTheSameIdAreNamed) {
+  Reading r;
+  r.read(blocks(1) + "/SET/GENERAL/5\ns\nPART               2\n/GRNOD/NODE/5\ng\n" + ints({1}) + "/GRSHEL/SHEL/5\ng\n" + ints({1001}) +
+         "/SURF/SEG/5\ns\n" + ints({1, 1, 2, 4, 3}));
+  EXPECT_EQ(r.errors(), Strings{});
+  EXPECT_EQ(group(r, 5), (Nodes{0}));
+  EXPECT_EQ(r.messages(Severity::warning).back(),
+            "t_0000.rad:41: warning: /SET/GENERAL/5: /SURF, /GRNOD with the same id: references to id 5 get those, not this set");
 }
 
 TEST(GeneralSets, UnknownClausesAreErrors) {
