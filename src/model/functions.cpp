@@ -55,8 +55,8 @@ Vec3 unit(const Vec3& a) {
 
 /// A card too few or too many is read as one vector and a blank one, which then has its default.
 void warn_half_given(BlockReader& r, const Vec3& y, const Vec3& z, bool has_origin) {
-  const bool only_y = z == Vec3{} && y != Vec3{} && (y.x != 0.0 || y.z != 0.0);
-  const bool only_z = y == Vec3{} && z != Vec3{} && (z.x != 0.0 || z.y != 0.0);
+  const bool only_y = z == Vec3{} && (y.x != 0.0 || y.z != 0.0);
+  const bool only_z = y == Vec3{} && (z.x != 0.0 || z.y != 0.0);
   if (!only_y && !only_z) return;
   r.warning(
       "model.skew_half_given", {1, 60}, only_y ? "Z'" : "Y'",
