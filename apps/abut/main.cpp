@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
@@ -22,6 +23,7 @@
 namespace {
 
 constexpr int wrong_usage = 2;
+constexpr const char* no_standard_output = "standard output cannot be written (is it closed, or its disk full?)";
 
 constexpr const char* examples = R"(Examples:
   abut run INT357_0000.rad                      run the deck into ./INT357
@@ -139,7 +141,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : wrong_usage;
+    if (app.exit(e) != 0) return wrong_usage;
+    if (std::cout.flush() && std::fflush(stdout) == 0) return 0;
+    fmt::print(stderr, "abut: {}\n", no_standard_output);
+    return 1;
   } catch (const std::exception& e) {  // --version under an impossible ABUT_ISA
     fmt::print(stderr, "abut: {}\n", e.what());
     return 1;
@@ -161,7 +166,7 @@ int main(int argc, char** argv) {
   };
   try {
     const int status = carry_out();
-    if (std::fflush(stdout) != 0) throw std::runtime_error("the output cannot be written (is the disk full?)");
+    if (std::fflush(stdout) != 0) throw std::runtime_error(no_standard_output);
     return status;
   } catch (const abut::InputError& e) {
     print_findings(e.diagnostics().all());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cycle/node_kernels.hpp"
 
@@ -67,13 +68,16 @@ void Cycle::advance(Sink& sink) {
   {
     const Timer timer(*this, p_output);  // 26
     const Snapshot now = snapshot_of_cycle();
-    if (!begun_) sink.begin(now);
-    begun_ = true;
+    if (!std::exchange(begun_, true)) sink.begin(now);
     sink.cycle(now);
   }
   check_finite();
   integrate();  // 27, 28, 29
   under_way_ = false;
+}
+
+void Cycle::begin(Sink& sink) {
+  if (!std::exchange(begun_, true)) sink.begin(snapshot());
 }
 
 void Cycle::decide_outputs() {

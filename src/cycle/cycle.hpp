@@ -41,6 +41,8 @@ class Cycle {
   /// Forces at t^n, step, constraints, balance, output, integration to t^(n+1).
   /// @throws RunError when a result is not finite or an error limit of the deck is exceeded
   void advance(Sink& sink);
+  /// Begins the outputs of a run that ends before its first cycle had any; nothing where they were begun.
+  void begin(Sink& sink);
   /// An exception has ended a cycle: the state is that of no moment, and no cycle can follow.
   [[nodiscard]] bool broken_off() const { return under_way_; }
 

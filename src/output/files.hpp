@@ -137,6 +137,7 @@ class AppendFile {
   AppendFile& operator=(AppendFile&& other) noexcept;
 
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+  [[nodiscard]] bool empty() const { return good_size_ == 0; }
   void append(std::string_view piece);  ///< @throws RunError
   /// Writing: what is in the file so far is brought to the disk, its length and fingerprint noted. Reading: the file is to go on from that
   /// length; what is behind it goes when something is written, so that a resume that is refused changes nothing.

@@ -96,13 +96,15 @@ void Listing::end(const cycle::Outcome& outcome) {
   const state::Balance& b = record_.balance();
   std::string text = fmt::format("\nThe run {}\n", outcome_text(outcome));
   text += fmt::format("Wall time   {:.2f} s, {:.4g} element-cycles/s\n", record_.wall_seconds(), record_.rate(outcome.cycles));
-  text += fmt::format(
-      "Energies    internal {:.6g}, hourglass {:.6g}, kinetic {:.6g}, rotational {:.6g}, contact stored {:.6g}, friction {:.6g}, damping "
-      "{:.6g}, contact made {:.6g}, external work {:.6g}\n",
-      b.ie, b.he, b.ke, b.ker, b.ce, b.fw, b.dw, b.cx, b.extw);
-  text +=
-      fmt::format("Worst       energy error {:.3f} % at time {:.6g}, contact made {:.4g} at time {:.6g}\n",
-                  100.0 * record_.worst_error().value, record_.worst_error().time, record_.worst_made().value, record_.worst_made().time);
+  if (record_.any()) {
+    text += fmt::format(
+        "Energies    internal {:.6g}, hourglass {:.6g}, kinetic {:.6g}, rotational {:.6g}, contact stored {:.6g}, friction {:.6g}, damping "
+        "{:.6g}, contact made {:.6g}, external work {:.6g}\n",
+        b.ie, b.he, b.ke, b.ker, b.ce, b.fw, b.dw, b.cx, b.extw);
+    text +=
+        fmt::format("Worst       energy error {:.3f} % at time {:.6g}, contact made {:.4g} at time {:.6g}\n",
+                    100.0 * record_.worst_error().value, record_.worst_error().time, record_.worst_made().value, record_.worst_made().time);
+  }
   for (const RunFinding& f : *info_.during) {
     if (f.diagnostic.code == ErosionWatch::deleted) text += fmt::format("Deleted     {}\n", f.diagnostic.message);
   }

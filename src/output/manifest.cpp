@@ -119,11 +119,13 @@ void Manifest::end(const cycle::Outcome& outcome) {
                   {"element_cycles_per_second", record_.rate(outcome.cycles)}};
   j["timings"] = Json::array();
   for (const PhaseTime& phase : all_timings()) j["timings"].push_back({{"name", phase.name}, {"seconds", phase.seconds}});
-  const state::Balance& b = record_.balance();
-  j["energies"] = energies_json(b);
-  j["mass"] = {{"total", b.mass}, {"added", b.added_mass}, {"error", mass_error(b)}};
-  j["worst"] = {{"ERR", {{"value", record_.worst_error().value}, {"time", record_.worst_error().time}}},
-                {"CX", {{"value", record_.worst_made().value}, {"time", record_.worst_made().time}}}};
+  if (record_.any()) {
+    const state::Balance& b = record_.balance();
+    j["energies"] = energies_json(b);
+    j["mass"] = {{"total", b.mass}, {"added", b.added_mass}, {"error", mass_error(b)}};
+    j["worst"] = {{"ERR", {{"value", record_.worst_error().value}, {"time", record_.worst_error().time}}},
+                  {"CX", {{"value", record_.worst_made().value}, {"time", record_.worst_made().time}}}};
+  }
   j["run_findings"] = Json::array();
   for (const RunFinding& f : *info_.during) {
     j["run_findings"].push_back({{"severity", "warning"},

@@ -31,12 +31,15 @@ class RunRecord {
   }
   void cycle(const cycle::Snapshot& now) {
     balance_ = *now.balance;
+    any_ = true;
     const double t = now.state->times.t;
     keep_worst(error_, balance_.err, t);
     keep_worst(made_, balance_.cx, t);
     if (now.hash_due) hashes_.push_back({now.state->times.cycle, now.state_hash});
   }
 
+  /// Whether a cycle was recorded: before that there are no energies.
+  [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] const state::Balance& balance() const { return balance_; }
   [[nodiscard]] Worst worst_error() const { return error_; }
   [[nodiscard]] Worst worst_made() const { return made_; }
@@ -47,6 +50,7 @@ class RunRecord {
     double seconds = wall_seconds();
     a(seconds);
     if (a.loading()) earlier_seconds_ = seconds;
+    if (a.loading()) any_ = true;
     Balance& b = balance_;
     for (double* term : {&b.ie, &b.he, &b.ke, &b.ker, &b.ce, &b.fw, &b.dw, &b.cx, &b.extw, &b.xe, &b.initial, &b.largest, &b.err, &b.ledger,
                          &b.mass, &b.added_mass})
@@ -74,6 +78,7 @@ class RunRecord {
     if (std::abs(value) > std::abs(worst.value) || (std::isnan(value) && !std::isnan(worst.value))) worst = {value, time};
   }
   Index elements_ = 0;
+  bool any_ = false;
   Clock::time_point start_ = Clock::now();
   double earlier_seconds_ = 0.0;
   state::Balance balance_;

@@ -8,7 +8,7 @@ namespace abut::output {
 
 void TimeHistory::begin(const cycle::Snapshot& first) {
   columns_ = make_history_columns(*first.model, ElementLookup(*first.model, first.groups)).columns;
-  if (opening_ == Opening::resumed) return;  // the file has its header
+  if (opening_ == Opening::resumed && !file_.empty()) return;  // it has its header
   row_ = "time";
   for (const HistoryColumn& column : columns_) row_ += "," + column.name;
   row_ += '\n';

@@ -176,6 +176,11 @@ bool Run::Impl::advance() {
 
 const Outcome& Run::Impl::finish(Outcome::Kind kind, std::string_view message) {
   if (over) return outcome;
+  try {
+    cycle->begin(sinks);  // files of a run without a cycle are complete, too
+  } catch (const std::exception& error) {
+    if (kind != Outcome::Kind::failed) fail(error.what());  // which comes back here and ends what was begun
+  }
   if (kind != Outcome::Kind::failed) keep_checkpoint();
   over = true;
   outcome = {kind, std::string(message), cycle->state().times.cycle, cycle->state().times.t};

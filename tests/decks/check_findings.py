@@ -192,7 +192,7 @@ def main():
 
         with open(os.path.join(work, "full"), "w") as full:
             cut = subprocess.run([abut, "check", deck("sound")], stdout=full, stderr=subprocess.PIPE, text=True, preexec_fn=no_room)
-        expect(cut.returncode == 1 and "the output cannot be written" in cut.stderr, f"check without room for its output: {cut.returncode}")
+        expect(cut.returncode == 1 and "standard output cannot be written" in cut.stderr, f"check without room for its output: {cut.returncode}")
         for code, (name, twin, profile) in DURING.items():
             for which in (name, twin):
                 output = os.path.join(work, "r" + which)

@@ -48,6 +48,25 @@ def test_an_edit_is_of_its_cycle():
     assert not run.velocities.any() and run.balance.extw == 0.0
 
 
+@pytest.mark.parametrize("assigned", [False, True])
+def test_of_two_changes_at_once_none_is_lost_silently(assigned):
+    run = cube_after_five_cycles()
+    with pytest.raises(RuntimeError, match="changed inside the block of edit"):
+        with run.edit() as outer:
+            if assigned:
+                run.velocities = np.full((8, 3), 2.0)
+            else:
+                with run.edit() as inner:
+                    inner.velocities[:] = 2.0
+            outer.velocities[:] = 7.0
+    assert np.all(run.velocities == 2.0)
+    with run.edit() as e:  # one after another they add up
+        e.velocities[0] = 3.0
+    with run.edit() as e:
+        e.velocities[1] = 4.0
+    assert run.velocities[:3, 0].tolist() == [3.0, 4.0, 2.0]
+
+
 def test_velocities_that_wait_for_the_next_cycle_are_read_only():
     b = builder()
     one_cube(b)

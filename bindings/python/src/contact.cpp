@@ -1,13 +1,15 @@
 // Surfaces and interfaces for hosts written in Python.
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "arrays.hpp"
+#include "core/fingerprint.hpp"
 #include "files.hpp"
 #include "held_interface.hpp"
 #include "parts.hpp"
@@ -189,26 +191,34 @@ void set_threads(HeldInterface& i, int threads) {
   i.pool = std::move(pool);
 }
 
-/// The library's blob after the two steps that this binding keeps.
+std::uint64_t checksum(std::string_view bytes) {
+  Fingerprint sum;
+  sum.add_bytes(bytes);
+  return sum.value();
+}
+
+/// A checksum over what follows it: the two steps that this binding keeps, and the library's blob.
 py::bytes history(HeldInterface& i) {
   const Work work(i);
   const std::array<double, 2> steps{i.last_step, i.step_before};
   const std::vector<std::byte> blob = i.interface.history();
-  std::string bytes(sizeof steps + blob.size(), '\0');
-  std::memcpy(bytes.data(), steps.data(), sizeof steps);
-  if (!blob.empty()) std::memcpy(bytes.data() + sizeof steps, blob.data(), blob.size());
+  std::string bytes(sizeof(std::uint64_t) + sizeof steps + blob.size(), '\0');
+  std::memcpy(bytes.data() + sizeof(std::uint64_t), steps.data(), sizeof steps);
+  if (!blob.empty()) std::memcpy(bytes.data() + sizeof(std::uint64_t) + sizeof steps, blob.data(), blob.size());
+  const std::uint64_t sum = checksum(std::string_view(bytes).substr(sizeof(std::uint64_t)));
+  std::memcpy(bytes.data(), &sum, sizeof sum);
   return bytes;
 }
 
 void restore(HeldInterface& i, const py::bytes& saved) {
-  const auto bytes = static_cast<std::string_view>(saved);
+  const auto whole = static_cast<std::string_view>(saved);
+  std::uint64_t sum = 0;
   std::array<double, 2> steps{};
-  if (bytes.size() < sizeof steps) throw py::value_error("this is not the history of an interface");
+  if (whole.size() < sizeof sum + sizeof steps) throw py::value_error("this is not the history of an interface");
+  std::memcpy(&sum, whole.data(), sizeof sum);
+  const std::string_view bytes = whole.substr(sizeof sum);
+  if (sum != checksum(bytes)) throw py::value_error("this is not the history of an interface, or it is damaged: its checksum is another");
   std::memcpy(steps.data(), bytes.data(), sizeof steps);
-  // The library's checksum is over what follows.
-  if (!std::all_of(steps.begin(), steps.end(), [](double h) { return h >= 0.0 && std::isfinite(h); })) {
-    throw py::value_error("this is not the history of an interface, or it is damaged: its steps are no times");
-  }
   const Work work(i);
   i.interface.restore({reinterpret_cast<const std::byte*>(bytes.data()) + sizeof steps, bytes.size() - sizeof steps});
   i.last_step = steps[0];

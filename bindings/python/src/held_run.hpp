@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -16,6 +17,7 @@ namespace abut::python {
 struct HeldRun {
   std::atomic<bool> interrupt = false;
   bool going = false;
+  std::int64_t edits = 0;  ///< times that velocities were changed from outside
   std::unique_ptr<Run> run;
   const Vec3* own_velocities = nullptr;  ///< what velocities() shows while nothing is edited
   const Vec3* own_angular = nullptr;

@@ -42,35 +42,43 @@ py::array angular_velocities(const py::object& self) {
 
 void assign(std::span<Vec3> target, const Points& source) { std::copy(source.span.begin(), source.span.end(), target.begin()); }
 
-void set_velocities(const HeldRun& self, const ArrayLike& value) {
+void set_velocities(HeldRun& self, const ArrayLike& value) {
   Run& run = self.idle();
   const Points v = points(value, "velocities", static_cast<py::ssize_t>(run.velocities().size()));
   assign(run.edit_velocities(), v);
+  ++self.edits;
 }
 
-void set_angular_velocities(const HeldRun& self, const ArrayLike& value) {
+void set_angular_velocities(HeldRun& self, const ArrayLike& value) {
   Run& run = self.idle();
   const Points w = points(value, "angular_velocities", static_cast<py::ssize_t>(run.angular_velocities().size()));
   if (run.angular_velocities().empty()) return;
   assign(run.edit_angular_velocities(), w);
+  ++self.edits;
 }
 
 /// Copies to be changed inside a `with` block, handed over at its end: a view would outlive the cycle that it is meant for.
 struct Edit {
   py::object run;
   py::object velocities = py::none(), angular_velocities = py::none();
-  std::int64_t cycle = 0;  ///< that they are of
+  std::int64_t cycle = 0, edits = 0;  ///< that they are of
 
   void enter() {
     cycle = run_of(run).cycle();
+    edits = run.cast<HeldRun&>().edits;
     velocities = copy(run_of(run).velocities());
     angular_velocities = copy(run_of(run).angular_velocities());
   }
   void leave() const {
-    const auto& held = run.cast<const HeldRun&>();
+    auto& held = run.cast<HeldRun&>();
     if (held.idle().cycle() != cycle) {
       throw std::runtime_error("the run has gone from cycle " + std::to_string(cycle) + " to " + std::to_string(held.idle().cycle()) +
                                " inside the block of edit(): its velocities are of the past, and nothing is changed");
+    }
+    if (held.edits != edits) {
+      throw std::runtime_error(
+          "velocities were changed inside the block of edit() in another way (a second edit(), or an assignment): that change stays, "
+          "those of this block are not taken over");
     }
     set_velocities(held, {velocities});
     set_angular_velocities(held, {angular_velocities});
@@ -109,9 +117,11 @@ std::vector<NamedResult> interface_results(const HeldRun& self) {
 }
 
 void bind_edit(py::module_& m) {
-  py::class_<Edit>(m, "Edit",
-                   "Velocities to be changed inside a `with` block: copies that the run takes over at its end, not after an exception.\n\n"
-                   "Raises RuntimeError at the end when the run has gone on inside: the velocities would be of the past.")
+  py::class_<Edit>(
+      m, "Edit",
+      "Velocities to be changed inside a `with` block: copies that the run takes over at its end, not after an exception.\n\n"
+      "Raises RuntimeError at the end when inside the run has gone on, or its velocities were changed in another way: the copies\n"
+      "would be of the past.")
       .def_readwrite("velocities", &Edit::velocities, "(N, 3) length/time, half a step before Run.time; None before the block begins")
       .def_readwrite("angular_velocities", &Edit::angular_velocities, "(N, 3) radians/time, (0, 3) in models without rotations")
       .def("__enter__",

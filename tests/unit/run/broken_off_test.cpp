@@ -1,6 +1,7 @@
 // Runs that end within a cycle: no checkpoint is made of what they leave, and the last one before goes on as if nothing had been.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -92,6 +93,46 @@ TEST(BrokenOff, AFailedRunIsNotSaved) {
   } catch (const RunError& error) { message = error.what(); }
   EXPECT_NE(message.find("base.rst' is not written: the run broke off within cycle "), std::string::npos) << message;
   EXPECT_FALSE(std::filesystem::exists(folder.file("base.rst")));
+}
+
+// Stopped or interrupted before the first cycle: what was left by an earlier run is gone, and every file says what it is.
+TEST(BrokenOff, BeforeTheFirstCycleFilesAreComplete) {
+  const Model model = Model::from_text({.starter = base_starter, .engines = {base_engine}, .name = "base"});
+  for (const bool interrupted : {false, true}) {
+    const Folder folder;
+    const RunSettings first = settings_in(folder.file("a"));
+    {
+      abut::Run earlier(model, first);
+      ASSERT_TRUE(earlier.advance());
+    }
+    const std::string listing = text_of(first.output / "base.out"), history = text_of(first.output / "base_th.csv");
+    std::filesystem::create_directories(first.output / "base_anim");
+    for (const char* old : {"base.pvd", "base_contact.vtu", "base_anim/base_0007.vtu"}) std::ofstream(first.output / old) << "old";
+
+    std::atomic<bool> stop = interrupted;
+    RunSettings again = first;
+    again.interrupt = &stop;
+    abut::Run run(model, again);
+    if (interrupted) {
+      EXPECT_FALSE(run.advance());
+    } else {
+      run.finish();
+    }
+    EXPECT_EQ(run.cycle(), 0);
+    for (const char* old : {"base.pvd", "base_contact.vtu", "base_anim/base_0007.vtu"}) {
+      EXPECT_FALSE(std::filesystem::exists(first.output / old)) << old;
+    }
+    EXPECT_EQ(text_of(first.output / "base_th.csv"), history.substr(0, history.find('\n') + 1));
+    const std::string said = text_of(first.output / "base.out"), head = listing.substr(0, listing.find("Columns of"));
+    EXPECT_EQ(said.substr(0, head.size()), head);
+    EXPECT_EQ(said.find("Energies"), std::string::npos);
+    const std::string manifest = text_of(first.output / "run.json");
+    for (const char* part : {"\"model\"", "\"settings\"", "\"files\"", "\"fingerprint\""}) {
+      EXPECT_NE(manifest.find(part), std::string::npos) << part;
+    }
+    EXPECT_EQ(manifest.find("\"energies\""), std::string::npos) << "there are none before a cycle";
+    EXPECT_NE(manifest.find(interrupted ? "interrupted by the user" : "stopped by the caller"), std::string::npos);
+  }
 }
 
 // ~Run ends a run that goes on; so does the run that takes its place.
