@@ -135,6 +135,24 @@ TEST(BrokenOff, BeforeTheFirstCycleFilesAreComplete) {
   }
 }
 
+// A checkpoint of cycle 0 in the run's own folder holds files in which nothing stood.
+TEST(BrokenOff, AResumeFromBeforeTheFirstCycleWritesTheWholeHistory) {
+  const Folder folder;
+  std::ofstream(folder.file("base_0000.rad")) << base_starter;
+  std::ofstream(folder.file("base_0001.rad")) << base_engine;
+  const Model model = Model::read(folder.file("base_0000.rad"));
+  {
+    abut::Run whole(model, settings_in(folder.file("whole")));
+    whole.advance_to_end();
+    abut::Run run(model, settings_in(folder.file("a")));
+    run.save(folder.file("a") / "base.rst");
+  }
+  abut::Run run = abut::Run::resume(folder.file("a"), {});
+  EXPECT_EQ(run.cycle(), 0);
+  run.advance_to_end();
+  EXPECT_EQ(text_of(folder.file("a") / "base_th.csv"), text_of(folder.file("whole") / "base_th.csv"));
+}
+
 // ~Run ends a run that goes on; so does the run that takes its place.
 TEST(BrokenOff, AnotherRunInItsPlaceEndsTheFirst) {
   const Folder folder;
