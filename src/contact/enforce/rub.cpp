@@ -57,6 +57,12 @@ Vec3 Pass::rub_by_return_mapping(const HostState& host, const Side& surface, con
     increment = (fraction * host.dt) * motion.tangential_velocity;
   }
   increment -= dot(increment, touch.normal) * touch.normal;
+  if (before.anchored != 0 && before.anchor.facet != touch.facet) {
+    // Over the bisector of an inward fold the closest point jumps from leg to leg while nothing moves so far: that way is no slip.
+    constexpr double jump = 2.0;
+    const Vec3 moved = host.dt * motion.tangential_velocity;
+    if (squared_norm(increment) > jump * jump * squared_norm(moved)) increment = moved - dot(moved, touch.normal) * touch.normal;
+  }
   // Where the stiffness has changed: a stiffer spring takes over the force, a softer one the slip; either stores less than before.
   const double stiffness_before = before.anchored != 0 ? before.tangential_stiffness : stiffness;
   const double stored_before = 0.5 * stiffness_before * squared_norm(elastic);
